@@ -9,10 +9,10 @@ namespace softreel::assets {
 
 /// Where the mistake lies; the value is the exit code of the program.
 enum class ErrorKind {
-  kUsage = 2,   ///< command line or scene, a setting that cannot hold included
-  kInput = 3,   ///< an input file or a needed program is missing or unusable
+  kUsage = 2,       ///< command line or scene, a setting that cannot hold included
+  kInput = 3,       ///< an input file or a needed program is missing or unusable
   kSimulation = 4,  ///< the simulation failed
-  kOutput = 5,  ///< output could not be written
+  kOutput = 5,      ///< output could not be written
 };
 
 /// One thing that is wrong.
