@@ -1,1 +1,3 @@
-int main() { return 0; }
+#include "app/exit_code.h"
+
+int main(int argc, char** argv) { return softreel::app::guarded_main(argc, argv); }
