@@ -1,0 +1,15 @@
+#include "assets/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace softreel::assets {
+
+int Time::frames() const { return std::max(1, static_cast<int>(std::lround(duration * fps))); }
+
+std::filesystem::path Scene::asset_path(const std::string& written) const {
+  const std::filesystem::path path(written);
+  return path.is_absolute() ? path : (file.parent_path() / path).lexically_normal();
+}
+
+}  // namespace softreel::assets

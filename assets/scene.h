@@ -1,0 +1,267 @@
+#pragma once
+// What a scene file says, as plain data: every key with its default. `read_scene` (scene_reader.h) fills it and checks
+// it; whoever receives a Scene from there may rely on every range and rule written in scene_keys.cpp.
+//
+// SI units, y up, angles in degrees, colours as they are written (sRGB, 0 to 1).
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/mesh.h"
+
+namespace softreel::assets {
+
+using Vec3 = sim::Vec3;
+
+/// sRGB as written in the file, each 0 to 1; not linear light.
+struct Color {
+  double r = 0, g = 0, b = 0;
+  bool operator==(const Color&) const = default;
+};
+
+enum class Integrator { kImplicitEuler, kSymplecticEuler };
+enum class Minimizer { kNewton };
+enum class LinearSolver { kAuto, kCholesky, kCg };
+enum class SolidModel { kStableNeoHookean, kCorotatedVolume };
+enum class MembraneModel { kStvk, kStableNeoHookean };
+enum class ClothModel { kMembrane, kMassSpring };
+enum class BendingModel { kQuadratic, kDiscreteShell };
+enum class TetrahedralizeMode { kConform };
+enum class UpAxis { kX, kY, kZ };
+enum class ColliderShape { kPlane, kSphere, kBox, kCapsule };
+enum class LightKind { kArea, kSun };
+enum class GroundMode { kAuto, kOn, kOff };
+
+struct Time {
+  double fps = 30;       ///< frames per second of the clip [1/s]
+  double duration = 3;   ///< [s]; frame 1 is t = 0
+  int substeps = 4;      ///< simulation steps per frame
+  int max_halvings = 6;  ///< how often a step that does not converge is retried with half the size
+  Integrator integrator = Integrator::kImplicitEuler;
+
+  int frames() const;                                   ///< round(duration x fps), at least 1
+  double step() const { return 1 / (fps * substeps); }  ///< [s]
+};
+
+struct Solver {
+  Minimizer method = Minimizer::kNewton;
+  LinearSolver linear = LinearSolver::kAuto;
+  double tolerance = 1e-3;         ///< of a step, relative to the motion it has to produce [-]
+  double linear_tolerance = 1e-4;  ///< of a linear solve by iteration, relative residual [-]
+  int max_iterations = 50;         ///< of the minimizer, per step
+};
+
+/// Placement of a body or collider: scale, then rotate (Euler angles, about x first, then y, then z), both about
+/// `pivot`, then translate.
+struct Transform {
+  Vec3 translate = Vec3::Zero();  ///< [m]
+  Vec3 rotate = Vec3::Zero();     ///< [deg] about x, y, z
+  Vec3 scale = Vec3::Ones();      ///< [-]
+  Vec3 pivot = Vec3::Zero();      ///< [m] in the coordinates of the mesh
+};
+
+/// One key frame of a motion on top of where the thing was put. Between key frames translate and each angle are
+/// interpolated by themselves (so turns beyond 180 degrees count); before the first and after the last they stand.
+struct MotionKey {
+  double t = 0;                   ///< [s]
+  Vec3 translate = Vec3::Zero();  ///< [m]
+  Vec3 rotate = Vec3::Zero();     ///< [deg] about x, y, z
+};
+
+/// Axis-aligned box in world coordinates.
+struct Box {
+  Vec3 lo = Vec3::Zero();  ///< [m]
+  Vec3 hi = Vec3::Zero();  ///< [m]
+};
+
+/// Vertices that are held, or driven by `motion`.
+struct Pin {
+  std::optional<Box> box;                         ///< vertices inside, after the body's transform
+  std::vector<int> vertices;                      ///< and these, by number (from 0)
+  std::array<bool, 3> axes = {true, true, true};  ///< held directions x, y, z
+  std::vector<MotionKey> motion;                  ///< t increases
+  std::optional<Vec3> pivot;  ///< [m] world, what `rotate` turns about; absent: the held vertices' mean
+};
+
+/// A mesh file as it is brought into the scene.
+struct MeshSource {
+  std::string path;            ///< as written, relative to the scene file; empty: no mesh. See Scene::asset_path
+  double unit = 1;             ///< metres per unit of the file [m]
+  UpAxis up = UpAxis::kY;      ///< the file's axis that points up
+  std::optional<double> size;  ///< scales the longest side to this [m]
+};
+
+/// How things look; drawn two-sided.
+struct Look {
+  Color color = {0.8, 0.8, 0.8};
+  std::optional<Color> back_color;  ///< of the side that the normals point away from; absent: `color`
+  double roughness = 0.6;           ///< [-] 0 mirror to 1 matt
+  double metallic = 0;              ///< [-] 0 or 1, or between
+  std::string texture;              ///< picture file, as written; empty: the mesh file's own, if it has one
+  double crease = 60;               ///< [deg] edges sharper than this stay hard
+  bool color_given = false;         ///< the scene names a colour: it replaces the colours and textures of the mesh file
+};
+
+struct Block {
+  Vec3 size = Vec3::Constant(0.5);       ///< [m]
+  std::array<int, 3> cells = {8, 8, 8};  ///< along x, y, z; each becomes tetrahedra
+};
+
+struct Grid {
+  std::array<double, 2> size = {1, 1};  ///< [m] along x, z
+  std::array<int, 2> cells = {32, 32};  ///< along x, z; each becomes two triangles
+};
+
+struct Tetrahedralize {
+  TetrahedralizeMode mode = TetrahedralizeMode::kConform;
+  double quality = 1.4;              ///< largest ratio of circumradius to shortest edge [-]
+  std::optional<double> max_volume;  ///< of one tetrahedron [m^3], after unit, size and scale
+  double time_limit = 60;            ///< [s]
+};
+
+struct SolidMaterial {
+  std::string preset;  ///< its figures have been filled in below; kept for messages
+  SolidModel model = SolidModel::kStableNeoHookean;
+  double young = 1e5;     ///< Young's modulus [Pa]
+  double poisson = 0.45;  ///< Poisson's ratio [-]
+};
+
+struct ClothMaterial {
+  std::string preset;  ///< its figures have been filled in below; kept for messages
+  MembraneModel model = MembraneModel::kStvk;
+  double young = 1e5;       ///< Young's modulus [Pa]
+  double poisson = 0.3;     ///< Poisson's ratio [-]
+  double thickness = 1e-3;  ///< [m]
+  double bending = 1e-5;    ///< bending stiffness [N m]
+};
+
+/// Stiffness of the springs of a mass-spring cloth [N/m]; absent: derived from the material (van Gelder 1998).
+struct Springs {
+  std::optional<double> structural;  ///< along the edges of the mesh
+  std::optional<double> shear;       ///< along the diagonals
+  std::optional<double> bend;        ///< to every second neighbour
+};
+
+/// What soft bodies and cloths have in common.
+struct Body {
+  std::string name;  ///< unique among bodies and colliders; made up ("soft-1") when the file gives none
+  MeshSource mesh;
+  Transform transform;
+  Vec3 velocity = Vec3::Zero();  ///< at t = 0 [m/s]
+  Vec3 spin = Vec3::Zero();      ///< at t = 0 [deg/s], about the world axes through the centre of mass
+  std::vector<Pin> pins;
+  Look look;
+  bool visible = true;
+};
+
+struct SoftBody : Body {
+  std::optional<Block> block;     ///< exactly one of `block` and `mesh.path` is given
+  Tetrahedralize tetrahedralize;  ///< for a surface mesh
+  SolidMaterial material;
+  double density = 1000;  ///< [kg/m^3]
+};
+
+struct Cloth : Body {
+  std::optional<Grid> grid;  ///< in the xz plane, centred; exactly one of `grid` and `mesh.path` is given
+  ClothModel model = ClothModel::kMembrane;
+  BendingModel bending_model = BendingModel::kQuadratic;  ///< of a membrane
+  ClothMaterial material;
+  Springs springs;            ///< of a mass-spring cloth
+  double spring_damping = 0;  ///< of a mass-spring cloth, along each spring [N s/m]
+  double density = 200;       ///< [kg/m^3]; mass per area is density x thickness
+
+  double areal_density() const { return density * material.thickness; }  ///< [kg/m^2]
+};
+
+struct Collider {
+  std::string name;  ///< unique among bodies and colliders; made up ("collider-1") when the file gives none
+  ColliderShape shape = ColliderShape::kPlane;
+  Vec3 normal = Vec3::UnitY();    ///< of a plane, which passes through its origin; normalized by the reader
+  double radius = 0.5;            ///< of a sphere or capsule [m]
+  Vec3 size = Vec3::Ones();       ///< of a box, centred [m]
+  double height = 1;              ///< of a capsule [m], between the centres of its ends, along y
+  double friction = 0.4;          ///< Coulomb's coefficient [-]
+  Transform transform;            ///< of a sphere and capsule the scale is uniform
+  std::vector<MotionKey> motion;  ///< t increases; turns about where the transform puts its origin
+  Look look;
+  bool visible = true;
+};
+
+struct Contact {
+  double distance = 2e-3;           ///< at which the penalty begins [m]
+  double slip_speed = 1e-3;         ///< below which friction holds [m/s]
+  std::optional<double> stiffness;  ///< of the penalty k in psi = k/3 (distance - d)^3 [N/m^2]; absent: from the scene
+};
+
+struct Damping {
+  double drag = 0;   ///< force per mass and velocity [1/s]
+  double alpha = 0;  ///< Rayleigh, of the mass [1/s]
+  double beta = 0;   ///< Rayleigh, of the stiffness [s]
+};
+
+struct Camera {
+  std::optional<Vec3> position;          ///< [m]; absent: framed over the whole clip, seen from `direction`
+  std::optional<Vec3> target;            ///< [m]; absent: the middle of what is to be seen
+  Vec3 direction = Vec3(0.55, 0.35, 1);  ///< from the target to the camera, when `position` is absent [-]
+  Vec3 up = Vec3::UnitY();               ///< [-]
+  double fov = 35;                       ///< vertical angle of view [deg]
+};
+
+struct Light {
+  LightKind kind = LightKind::kArea;
+  std::optional<Vec3> position;         ///< of an area light [m]; absent: in `direction`, three scene sizes away
+  Vec3 direction = Vec3(0.5, 1, 0.35);  ///< from the scene to the light [-]
+  std::optional<double> radius;         ///< of an area light [m]; absent: a tenth of its distance
+  double angle = 2;                     ///< a sun's angle of sight [deg]
+  Color color = {1, 0.97, 0.92};
+  double intensity = 1;  ///< [-] 1: a white surface that faces it, in the middle of the scene, comes out nearly white
+  bool shadow = true;
+};
+
+/// From the top of the picture to its bottom; the same colour twice is a plain background.
+struct Background {
+  Color top = {0.62, 0.72, 0.83};
+  Color bottom = {0.93, 0.94, 0.95};
+};
+
+/// The plane that things stand on and throw shadows onto; drawn only, what bodies bump into are the colliders.
+struct Ground {
+  GroundMode show = GroundMode::kAuto;  ///< auto: drawn unless a plane collider is visible
+  std::optional<double> height;         ///< y [m]; absent: under the lowest point of the clip
+  Color color = {0.72, 0.71, 0.69};
+  double roughness = 0.9;  ///< [-]
+};
+
+struct Render {
+  std::array<int, 2> size = {1280, 720};  ///< width, height [pixels]
+  int samples = 16;                       ///< passes averaged into one frame
+  int seed = 0;                           ///< of the sample positions
+  Background background;
+  Ground ground;
+  double exposure = 0;  ///< [stops]
+  double sky = 1;       ///< brightness of the sky's even light [-]
+};
+
+struct Scene {
+  std::string title;
+  Vec3 gravity = Vec3(0, -9.81, 0);  ///< [m/s^2]
+  Time time;
+  Solver solver;
+  std::vector<SoftBody> soft;
+  std::vector<Cloth> cloth;
+  std::vector<Collider> colliders;
+  Contact contact;
+  Damping damping;
+  Camera camera;
+  std::vector<Light> lights;  ///< a file that does not mention lights gets one area light; `light = []` means none
+  Render render;
+
+  std::filesystem::path file;  ///< where it was read from; empty for text
+
+  /// A path of the scene file (mesh, texture), seen from the working directory.
+  std::filesystem::path asset_path(const std::string& written) const;
+};
+
+}  // namespace softreel::assets
