@@ -1,0 +1,44 @@
+#pragma once
+// What surrounds the bodies: sky light, ground, background, exposure.
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "render/bounds.h"
+#include "render/camera.h"
+#include "render/light.h"
+#include "render/look.h"
+
+namespace softreel::render {
+
+/// A ground plane without end that receives shadows and fades into the background.
+struct Ground {
+  bool visible = false;
+  float height = 0;           ///< world y [m]
+  glm::vec3 centre{0, 0, 0};  ///< about which it fades; y is not used
+  float fade_begin = 5;       ///< distance from `centre` up to which it is opaque [m]
+  float fade_end = 25;        ///< distance from which only the background is seen [m]
+  Look look;                  ///< texture is not used
+};
+
+/// Colours are linear; the radiance of a white matte surface under `sky` alone, facing up, is `sky`.
+struct Environment {
+  glm::vec3 sky{0.42f, 0.46f, 0.52f};           ///< ambient light from above
+  glm::vec3 ground_light{0.26f, 0.24f, 0.22f};  ///< ambient light from below
+  bool sky_shadow = false;  ///< ambient light is blocked by bodies: one more shadow map in each accumulation pass
+  Ground ground;
+  /// Background in the picture's own (display) linear values: what is asked for is what the file holds.
+  glm::vec3 background_top{0.36f, 0.42f, 0.50f};
+  glm::vec3 background_bottom{0.62f, 0.64f, 0.66f};  ///< same as top: a plain background
+  bool transparent = false;                          ///< leave the background out: alpha 0 where nothing is drawn
+  float exposure = 1;                                ///< factor on all radiance before the tone curve, > 0
+};
+
+/// Good defaults for a scene that says nothing about light: a soft key light over the viewer's shoulder and a sky,
+/// sizes taken from the box around the whole clip. The ground, when asked for, lies at `ground_height`.
+struct Stage {
+  std::vector<Light> lights;
+  Environment environment;
+};
+Stage default_stage(const Bounds& whole_clip, const Camera& camera, bool with_ground, float ground_height = 0);
+
+}  // namespace softreel::render

@@ -1,0 +1,27 @@
+#pragma once
+// How a surface looks: metallic-roughness, as glTF 2.0 defines it.
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+
+#include "render/image.h"
+
+namespace softreel::render {
+
+/// Colours are linear (Rec. 709 primaries); `linear_from_srgb` turns "#d9a066" into one.
+struct Look {
+  glm::vec3 color{0.7f, 0.7f, 0.7f};     ///< base colour, linear, 0..1; multiplied with the texture
+  std::shared_ptr<const Image> texture;  ///< base colour, sRGB; null: none. Shared: uploaded once per Image
+  float metallic = 0;                    ///< 0 cloth, skin, plastic .. 1 metal
+  float roughness = 0.5f;                ///< perceptual, 0 mirror .. 1 chalk; the GGX alpha is its square
+  bool two_sided = false;                ///< also drawn from behind, with the normal turned (cloth)
+  std::optional<glm::vec3> back_color;   ///< base colour seen from behind, linear; used when two_sided
+  float sheen = 0;                       ///< 0..1: soft bright rim of fibres (velvet, wool)
+};
+
+/// From sRGB components 0..1 (IEC 61966-2-1) to linear ones.
+glm::vec3 linear_from_srgb(const glm::vec3& srgb);
+/// From 0xRRGGBB.
+glm::vec3 linear_from_hex(unsigned hex);
+
+}  // namespace softreel::render

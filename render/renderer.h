@@ -1,0 +1,85 @@
+#pragma once
+// Draws meshes with OSMesa into pictures. One Renderer is one GL context; use it on the thread that made it.
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/bounds.h"
+#include "render/camera.h"
+#include "render/environment.h"
+#include "render/film.h"
+#include "render/image.h"
+#include "render/light.h"
+#include "render/look.h"
+#include "render/surface_mesh.h"
+
+namespace softreel::render {
+
+struct RenderOptions {
+  int width = 1280;         ///< [px], 1 .. 16384
+  int height = 720;         ///< [px], 1 .. 16384
+  int samples = 16;         ///< accumulation passes per picture, 1 .. 65536
+  std::uint32_t seed = 0;   ///< of the sample sequence; the same for every frame, so that still parts do not flicker
+  int shadow_map_size = 0;  ///< [texels]; 0: chosen from the picture's size
+};
+
+/// What was done since the renderer was made. A feature that a scene does not use leaves its counter at 0.
+struct RenderCounters {
+  std::size_t accumulation_buffers = 0;  ///< made; 0 for samples = 1
+  std::size_t shadow_maps = 0;           ///< textures made; 0 without a light that casts shadows
+  std::size_t textures = 0;              ///< base-colour textures uploaded
+  std::size_t mesh_uploads = 0;          ///< of positions and normals; one per mesh that does not move
+  std::size_t passes = 0;                ///< accumulation passes drawn
+  std::size_t shadow_passes = 0;         ///< shadow maps drawn
+  std::size_t draw_calls = 0;            ///< shadow passes included
+};
+
+using MeshId = std::size_t;
+
+class Renderer {
+ public:
+  /// Throws RenderError (kContext) when no context of the needed version can be made, std::invalid_argument for options
+  /// out of range.
+  explicit Renderer(const RenderOptions& options);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Adds a surface. `looks`: as many as its parts name, at least one. Nothing is drawn of it until set_positions.
+  /// Throws std::invalid_argument as check_mesh does.
+  MeshId add_mesh(SurfaceMesh mesh, std::vector<Look> looks);
+  /// A shape that keeps its positions.
+  MeshId add_shape(Shape shape, const Look& look);
+
+  /// New positions (position_count of them, mesh space [m]); normals follow from them. Uploaded with the next picture,
+  /// and only when they differ from the last ones.
+  void set_positions(MeshId mesh, std::span<const glm::vec3> positions);
+  /// world_from_mesh for a mesh that moves as a whole (no upload). Rotation, translation and any scale but zero.
+  void set_transform(MeshId mesh, const glm::mat4& world_from_mesh);
+  void set_visible(MeshId mesh, bool visible);
+  /// True at first. A ground quad need not cast.
+  void set_casts_shadow(MeshId mesh, bool casts);
+
+  /// Box around all visible meshes as they are now, world space.
+  Bounds bounds() const;
+
+  /// One picture. The same input gives the same bits on one machine, for any thread count.
+  Image render(const Camera& camera, std::span<const Light> lights, const Environment& environment);
+  /// The same before tone curve and background: see film.h.
+  FloatImage render_linear(const Camera& camera, std::span<const Light> lights, const Environment& environment);
+
+  const RenderOptions& options() const;
+  const RenderCounters& counters() const;
+  /// "Mesa 22.3.6, llvmpipe (LLVM 15.0.6, 256 bits)", for --version.
+  std::string driver() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace softreel::render
