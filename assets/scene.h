@@ -95,13 +95,12 @@ struct MeshSource {
 
 /// How things look; drawn two-sided.
 struct Look {
-  Color color = {0.8, 0.8, 0.8};
-  std::optional<Color> back_color;  ///< of the side that the normals point away from; absent: `color`
+  std::optional<Color> color;       ///< absent: the mesh file's own colours and textures, or else light grey
+  std::optional<Color> back_color;  ///< of the side that the normals point away from; absent: as the front
   double roughness = 0.6;           ///< [-] 0 mirror to 1 matt
   double metallic = 0;              ///< [-] 0 or 1, or between
-  std::string texture;              ///< picture file, as written; empty: the mesh file's own, if it has one
+  std::string texture;              ///< picture file, as written; empty: the mesh file's own, if no colour is given
   double crease = 60;               ///< [deg] edges sharper than this stay hard
-  bool color_given = false;         ///< the scene names a colour: it replaces the colours and textures of the mesh file
 };
 
 struct Block {
@@ -244,6 +243,15 @@ struct Render {
   double sky = 1;       ///< brightness of the sky's even light [-]
 };
 
+/// A file that the scene names, and where it does so.
+struct AssetUse {
+  std::string key;       ///< "soft.spot.mesh"
+  std::string path;      ///< as written
+  bool physics = false;  ///< its content belongs to the simulation; otherwise only to the picture
+  std::string file;      ///< where it is named, as in Problem
+  int line = 0, column = 0;
+};
+
 struct Scene {
   std::string title;
   Vec3 gravity = Vec3(0, -9.81, 0);  ///< [m/s^2]
@@ -258,7 +266,8 @@ struct Scene {
   std::vector<Light> lights;  ///< a file that does not mention lights gets one area light; `light = []` means none
   Render render;
 
-  std::filesystem::path file;  ///< where it was read from; empty for text
+  std::filesystem::path file;    ///< where it was read from
+  std::vector<AssetUse> assets;  ///< in the order of the table; filled by the reader
 
   /// A path of the scene file (mesh, texture), seen from the working directory.
   std::filesystem::path asset_path(const std::string& written) const;
