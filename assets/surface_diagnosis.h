@@ -21,6 +21,7 @@ struct SurfaceDiagnosis {
   Defect non_manifold_vertices;  ///< vertices whose faces form more than one fan (edges above not counted again)
   Defect flipped_edges;          ///< edges whose two faces run the same way: orientation changes across them
   Defect inside_out;             ///< closed components that face inwards without lying inside another one
+  Defect nested;                 ///< closed components that lie inside another one and face outwards as well
   Defect crossings;              ///< pairs of faces that cross, touch or overlap beyond a shared vertex or edge
   Defect zero_area;              ///< faces without area
   Defect duplicates;             ///< faces with the same three vertices as an earlier one

@@ -34,6 +34,8 @@ struct ImportedSurface {
   std::vector<sim::Triangle> triangles;  ///< over render vertices
   std::vector<SurfacePart> parts;        ///< in order; cover all triangles without overlap; at least one
 
+  std::vector<std::string> missing_textures;  ///< that the file names and nobody finds
+
   int dropped_degenerate = 0;  ///< triangles with two equal corners or no area at all, left out
   int dropped_other = 0;       ///< points and lines, left out
 };

@@ -1,0 +1,13 @@
+#pragma once
+// All pairs of faces of one surface that cross.
+#include <utility>
+
+#include "sim/mesh.h"
+
+namespace softreel::assets {
+
+/// Pairs (i < j) of triangles that meet beyond what they share (see triangles_cross), sorted; at most `limit` of them.
+/// Flat triangles and faces with the same three vertices are left out. A tree of boxes finds the candidates.
+std::vector<std::pair<int, int>> crossing_pairs(const sim::TriangleMesh& mesh, std::size_t limit);
+
+}  // namespace softreel::assets
