@@ -1,0 +1,70 @@
+#include "render/gl_context.h"
+
+// osmesa.h wants the old gl.h; its types are the same.
+#include <GL/osmesa.h>
+
+#include <array>
+#include <cstdlib>
+#include <mutex>
+
+#include "render/error.h"
+
+namespace softreel::render {
+
+struct GlContext::State {
+  OSMesaContext context = nullptr;
+  std::array<unsigned char, 4> pixel{};
+};
+
+namespace {
+
+/// 512-bit vectors crash Mesa 22.3's code generator. Only our own process sees the change.
+void avoid_wide_vectors() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+    if (width != nullptr && std::atoi(width) > 256) setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
+  });
+}
+
+}  // namespace
+
+GlContext::GlContext() : state_(std::make_unique<State>()) {
+  avoid_wide_vectors();
+  // 4.5: asked for 4.6, OSMesa returns null.
+  constexpr std::array<int, 15> kAttributes{OSMESA_FORMAT,
+                                            OSMESA_RGBA,
+                                            OSMESA_DEPTH_BITS,
+                                            0,
+                                            OSMESA_STENCIL_BITS,
+                                            0,
+                                            OSMESA_ACCUM_BITS,
+                                            0,
+                                            OSMESA_PROFILE,
+                                            OSMESA_CORE_PROFILE,
+                                            OSMESA_CONTEXT_MAJOR_VERSION,
+                                            4,
+                                            OSMESA_CONTEXT_MINOR_VERSION,
+                                            5,
+                                            0};
+  state_->context = OSMesaCreateContextAttribs(kAttributes.data(), nullptr);
+  if (state_->context == nullptr)
+    throw RenderError(RenderErrorKind::kContext,
+                      "OSMesa cannot make an OpenGL 4.5 core context (Mesa 22 or 23 is needed)");
+  if (OSMesaMakeCurrent(state_->context, state_->pixel.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE) {
+    OSMesaDestroyContext(state_->context);
+    throw RenderError(RenderErrorKind::kContext, "OSMesa cannot make its OpenGL context current");
+  }
+}
+
+GlContext::~GlContext() { OSMesaDestroyContext(state_->context); }
+
+void GlContext::make_current() {
+  if (OSMesaGetCurrentContext() == state_->context) return;
+  if (OSMesaMakeCurrent(state_->context, state_->pixel.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE)
+    throw RenderError(RenderErrorKind::kContext, "OSMesa cannot make its OpenGL context current");
+}
+
+GlContext::Function GlContext::function(const char* name) { return OSMesaGetProcAddress(name); }
+
+}  // namespace softreel::render

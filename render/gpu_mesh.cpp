@@ -1,0 +1,82 @@
+#include "render/gpu_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "render/shader_sources.h"
+#include "render/smooth_normals.h"
+
+namespace softreel::render {
+
+GpuMesh::GpuMesh(const GlFunctions& gl, SurfaceMesh mesh, std::vector<Look> looks)
+    : gl_(gl), mesh_(std::move(mesh)), looks_(std::move(looks)) {
+  if (mesh_.parts.empty()) mesh_.parts.push_back({0, mesh_.triangles.size(), 0});
+  normals_.resize(normal_group_count(mesh_));
+  vertices_.resize(mesh_.position_of.size());
+
+  index_buffer_ = make_buffer(gl, mesh_.triangles.size() * sizeof(glm::uvec3), mesh_.triangles.data(), 0);
+  vertex_buffer_ = make_buffer(gl, vertices_.size() * sizeof(Vertex), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  vertex_array_ = make_vertex_array(gl);
+  const GLuint array = *vertex_array_;
+  gl.VertexArrayElementBuffer(array, *index_buffer_);
+  gl.VertexArrayVertexBuffer(array, 0, *vertex_buffer_, 0, sizeof(Vertex));
+  const auto attribute = [&](unsigned index, GLint size, GLuint offset, GLuint binding) {
+    gl.EnableVertexArrayAttrib(array, index);
+    gl.VertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, offset);
+    gl.VertexArrayAttribBinding(array, index, binding);
+  };
+  attribute(kPositionAttribute, 3, 0, 0);
+  attribute(kNormalAttribute, 3, sizeof(glm::vec3), 0);
+  if (!mesh_.uv.empty()) {
+    uv_buffer_ = make_buffer(gl, mesh_.uv.size() * sizeof(glm::vec2), mesh_.uv.data(), 0);
+    gl.VertexArrayVertexBuffer(array, 1, *uv_buffer_, 0, sizeof(glm::vec2));
+    attribute(kUvAttribute, 2, 0, 1);
+  }
+  check_gl(gl, "set up a mesh");
+}
+
+void GpuMesh::set_positions(std::span<const glm::vec3> positions) {
+  if (positions.size() != mesh_.position_count)
+    throw std::invalid_argument(
+        fmt::format("{} positions for a mesh that has {}", positions.size(), mesh_.position_count));
+  const bool same = positions_.size() == positions.size() && !positions.empty() &&
+                    std::memcmp(positions_.data(), positions.data(), positions.size_bytes()) == 0;
+  if (same) return;
+  positions_.assign(positions.begin(), positions.end());
+  bounds_ = {};
+  bounds_.add(positions);
+  waiting_ = true;
+}
+
+void GpuMesh::upload(RenderCounters& counters) {
+  if (!waiting_) return;
+  waiting_ = false;
+  compute_smooth_normals(mesh_, positions_, normals_);
+  const std::span<const std::uint32_t> group_of = mesh_.normal_of.empty() ? mesh_.position_of : mesh_.normal_of;
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    vertices_[i] = {positions_[mesh_.position_of[i]], normals_[group_of[i]]};
+  gl_.NamedBufferSubData(*vertex_buffer_, 0, static_cast<GLsizeiptr>(vertices_.size() * sizeof(Vertex)),
+                         vertices_.data());
+  ++counters.mesh_uploads;
+}
+
+void GpuMesh::draw(std::size_t first_triangle, std::size_t triangle_count) const {
+  gl_.BindVertexArray(*vertex_array_);
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangle_count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(first_triangle * sizeof(glm::uvec3)));
+}
+
+Bounds GpuMesh::world_bounds() const {
+  if (bounds_.empty()) return {};
+  const glm::vec3 centre(world_from_mesh * glm::vec4(bounds_.centre(), 1));
+  const glm::vec3 half = 0.5f * (bounds_.high - bounds_.low);
+  glm::vec3 reach(0);
+  for (int axis = 0; axis < 3; ++axis) reach += glm::abs(glm::vec3(world_from_mesh[axis])) * half[axis];
+  return {centre - reach, centre + reach};
+}
+
+}  // namespace softreel::render

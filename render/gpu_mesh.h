@@ -1,0 +1,61 @@
+#pragma once
+// A surface on the GPU side: topology once, positions and normals as often as they change.
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/bounds.h"
+#include "render/gl_objects.h"
+#include "render/look.h"
+#include "render/renderer.h"
+#include "render/surface_mesh.h"
+
+namespace softreel::render {
+
+class GpuMesh {
+ public:
+  GpuMesh(const GlFunctions& gl, SurfaceMesh mesh, std::vector<Look> looks);
+
+  /// Keeps the positions for the next upload, unless they are the ones already there. `positions`: mesh.position_count.
+  void set_positions(std::span<const glm::vec3> positions);
+  /// Normals and upload, when positions are waiting; counts it.
+  void upload(RenderCounters& counters);
+  /// Draws triangles [first, first + count).
+  void draw(std::size_t first_triangle, std::size_t triangle_count) const;
+
+  bool has_positions() const { return !positions_.empty(); }
+  std::size_t position_count() const { return mesh_.position_count; }
+  std::size_t triangle_count() const { return mesh_.triangles.size(); }
+  bool has_uv() const { return !mesh_.uv.empty(); }
+  std::span<const MeshPart> parts() const { return mesh_.parts; }
+  const Look& look(std::size_t index) const { return looks_[index]; }
+  std::span<const Look> looks() const { return looks_; }
+  GLuint vertex_array() const { return *vertex_array_; }
+  /// World-space box of the mesh's own box, turned and moved.
+  Bounds world_bounds() const;
+
+  glm::mat4 world_from_mesh{1};
+  bool visible = true;
+  bool casts_shadow = true;
+
+ private:
+  struct Vertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+  };
+
+  const GlFunctions& gl_;
+  SurfaceMesh mesh_;
+  std::vector<Look> looks_;
+  std::vector<glm::vec3> positions_;
+  std::vector<glm::vec3> normals_;
+  std::vector<Vertex> vertices_;
+  Bounds bounds_;  ///< mesh space
+  bool waiting_ = false;
+  GlBuffer vertex_buffer_;
+  GlBuffer uv_buffer_;
+  GlBuffer index_buffer_;
+  GlVertexArray vertex_array_;
+};
+
+}  // namespace softreel::render

@@ -1,0 +1,71 @@
+#include "render/image_io.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "render/error.h"
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_MAX_DIMENSIONS 16384
+#include <stb_image.h>
+
+namespace softreel::render {
+
+static_assert(STBI_MAX_DIMENSIONS == kMaxImageSide);
+
+namespace {
+
+constexpr std::uintmax_t kMaxFileSize = 1u << 30;  // [bytes]; stb counts in int
+
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw RenderError(RenderErrorKind::kInput, fmt::format("cannot use {} as a picture: {}", name, why));
+}
+
+}  // namespace
+
+Image load_image(std::span<const std::byte> bytes, const std::string& name) {
+  if (bytes.empty()) refuse(name, "it is empty");
+  if (bytes.size() > kMaxFileSize) refuse(name, "it is larger than 1 GiB");
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  // The header alone first: an absurd size must not ask for memory.
+  if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0)
+    refuse(name, fmt::format("{} (PNG, JPEG, TGA, BMP, PSD, GIF, PNM and HDR can be read)", stbi_failure_reason()));
+  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
+    refuse(name, fmt::format("{} x {} pixels; a side may have 1 to {}", width, height, kMaxImageSide));
+
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
+      stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);
+  if (!pixels) refuse(name, stbi_failure_reason());
+  Image image = Image::blank(width, height);
+  std::memcpy(image.rgba.data(), pixels.get(), image.rgba.size());
+  return image;
+}
+
+Image load_image(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) refuse(path.string(), "there is no such file");
+  if (!std::filesystem::is_regular_file(status)) refuse(path.string(), "it is not a file");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) refuse(path.string(), error.message());
+  if (size > kMaxFileSize) refuse(path.string(), "it is larger than 1 GiB");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(path.string(), std::generic_category().message(errno));
+  std::vector<std::byte> bytes(size);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+    refuse(path.string(), "it cannot be read");
+  return load_image(bytes, path.string());
+}
+
+}  // namespace softreel::render

@@ -1,0 +1,85 @@
+#include "render/shader_parts.h"
+
+namespace softreel::render {
+
+// Every pass sees one point of the light, and stands for the part of the light around it. Its hard shadow is blurred by
+// as much as that part alone would blur it: percentage-closer soft shadows (R. Fernando, NVIDIA 2005) on 1/N of the
+// light. So one pass already gives a soft penumbra, and sixteen have no steps in it. Bias: the receiver's plane is
+// known exactly in the map's space, so every tap is compared with the depth of the plane under it (J. Isidoro, "Shadow
+// Mapping: GPU-based Tips and Techniques", GDC 2006, without screen-space derivatives); what is left, the texel's own
+// width and curvature, is covered by an offset along the normal.
+const char* const kShadowLookup = R"(
+#ifdef SHADOW_MAPS
+layout(binding = 1) uniform sampler2DArrayShadow shadow_compare;
+layout(binding = 2) uniform sampler2DArray shadow_depth;
+
+float linear_depth(vec4 range, float z) {
+  return range.z > 0.5 ? range.x * range.y / (range.y - z * (range.y - range.x)) : mix(range.x, range.y, z);
+}
+
+// J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014: neighbours get turns that differ evenly.
+float pixel_turn() {
+  vec2 p = gl_FragCoord.xy + 5.588238 * pass.camera.w;
+  return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715))));
+}
+
+// Points evenly over the unit disc (H. Vogel, Mathematical Biosciences 44, 1979).
+vec2 disc_point(int i, int count, float turn) {
+  float angle = 2.39996323 * float(i) + 6.2831853 * turn;
+  return sqrt((float(i) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
+}
+
+// 0 in full shadow, 1 in full light. `normal`: of the surface as it is, unit, towards the light.
+float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
+  ShadowData s = pass.shadows[map];
+  bool perspective = s.depth.z > 0.5;
+  vec4 at = s.map_from_world * vec4(position, 1);
+  float texel = s.filter_size.z * (perspective ? at.w : 1.0);  // [m] at this distance
+  vec3 lifted = position + normal * (texel * (0.4 + 1.4 * sqrt(max(1 - n_dot_l * n_dot_l, 0))));
+  at = s.map_from_world * vec4(lifted, 1);
+  if (at.w <= 0) return 1;
+  vec3 p = at.xyz / at.w;
+  if (any(lessThan(p.xy, vec2(0))) || any(greaterThan(p.xy, vec2(1))) || p.z <= 0) return 1;
+
+  vec4 plane = s.plane_from_world * vec4(normal, -dot(normal, lifted));
+  vec2 texel_uv = 1.0 / vec2(textureSize(shadow_depth, 0).xy);
+  vec2 slope = -plane.xy / (abs(plane.z) > 1e-12 ? plane.z : 1e-12);
+  // Almost edge-on the plane says nothing useful any more. Limit: the depth range over a hundredth of the map.
+  slope = clamp(slope, vec2(-100), vec2(100));
+  float z = min(p.z, 1.0) - dot(abs(slope), 0.6 * texel_uv) - 1e-6;
+  bool beyond = p.z >= 1;
+  if (beyond) { slope = vec2(0); z = 1 - 1e-6; }
+
+  float here = linear_depth(s.depth, p.z);
+  float reach = s.filter_size.w * (perspective ? max(1 / s.depth.x - 1 / here, 0) : max(here - s.depth.x, 0));
+  vec2 search = min(reach * s.filter_size.xy, vec2(0.12));
+  if (max(search.x, search.y) < max(texel_uv.x, texel_uv.y))
+    return texture(shadow_compare, vec4(p.xy, map, z));
+
+  float turn = pixel_turn();
+  float blocker = 0;
+  float blockers = 0;
+  for (int i = 0; i < SHADOW_TAPS; ++i) {
+    vec2 d = disc_point(i, SHADOW_TAPS, turn) * search;
+    float stored = textureLod(shadow_depth, vec3(p.xy + d, map), 0).r;
+    // A caster must be clearly in front of the plane, more so farther out, or curved surfaces shade themselves.
+    if (stored < z + dot(d, slope)) {
+      blocker += linear_depth(s.depth, stored);
+      blockers += 1;
+    }
+  }
+  if (blockers == 0) return 1;
+  blocker /= blockers;
+  float width = s.filter_size.w * (perspective ? max(1 / blocker - 1 / here, 0) : max(here - blocker, 0));
+  vec2 radius = clamp(width * s.filter_size.xy, 1.2 * texel_uv, vec2(0.12));
+  float light = 0;
+  for (int i = 0; i < SHADOW_TAPS; ++i) {
+    vec2 d = disc_point(i, SHADOW_TAPS, turn) * radius;
+    light += texture(shadow_compare, vec4(p.xy + d, map, z + dot(d, slope)));
+  }
+  return light / SHADOW_TAPS;
+}
+#endif
+)";
+
+}  // namespace softreel::render
