@@ -1,0 +1,157 @@
+#include "assets/scene_rules.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include <map>
+
+#include "assets/scene_limits.h"
+
+namespace softreel::assets {
+
+namespace {
+
+// A key that the choice made elsewhere leaves without a meaning.
+void only_for(KeyVisitor& v, bool applies, std::initializer_list<const char*> keys, const char* rule) {
+  if (applies) return;
+  for (const char* key : keys)
+    if (v.given(key)) v.problem(key, rule);
+}
+
+void nonzero(KeyVisitor& v, const char* key, const Vec3& direction) {
+  if (!(direction.norm() > 1e-9)) v.problem(key, "found [0, 0, 0], expected a direction; its length does not matter");
+}
+
+void check_mesh_or(KeyVisitor& v, const Body& body, bool made, const char* key, const char* example) {
+  const bool wants_mesh = v.given("mesh"), wants_made = v.given(key);
+  if (wants_mesh && wants_made)
+    v.problem(key, fmt::format("both mesh and {} are given; keep one of them", key));
+  else if (!wants_mesh && !wants_made)
+    v.problem("", fmt::format("has no shape; add mesh = \"FILE\" or {}", example));
+  if (body.mesh.path.empty() && made) only_for(v, false, {"unit", "up", "size"}, "is for a mesh file");
+}
+
+// Names of bodies and colliders are one set: overrides, reports and exports call them by name.
+void check_names(KeyVisitor& v, const Scene& scene) {
+  std::map<std::string, std::string> first;  // name -> where it was first used
+  const auto collect = [&](const auto& things, const char* kind) {
+    for (size_t i = 0; i < things.size(); ++i) {
+      const std::string place = fmt::format("{}.{}", kind, i + 1);
+      const bool given = !things[i].name.empty();
+      const std::string name = given ? things[i].name : fmt::format("{}-{}", kind, i + 1);
+      const auto [it, added] = first.emplace(name, place);
+      if (!added)
+        v.problem(given ? place + ".name" : place,
+                  fmt::format("the name \"{}\" is already that of {}; every body and collider needs its own", name,
+                              it->second));
+    }
+  };
+  collect(scene.soft, "soft");
+  collect(scene.cloth, "cloth");
+  collect(scene.colliders, "collider");
+}
+
+}  // namespace
+
+void check(KeyVisitor& v, const Scene& scene) {
+  if (scene.soft.empty() && scene.cloth.empty())
+    v.problem("", "there is nothing to simulate; add a [[soft]] or [[cloth]], such as: [[soft]] block = {}");
+  check_names(v, scene);
+}
+
+void check(KeyVisitor& v, const Time& time) {
+  const double frames = time.duration * time.fps;
+  if (frames > kMostFrames)
+    v.problem("duration", fmt::format("{} s at {} frames per second are {:.0f} frames, at most {:.0f}", time.duration,
+                                      time.fps, frames, kMostFrames));
+  else if (frames * time.substeps > kMostSteps)
+    v.problem("substeps", fmt::format("{:.0f} frames of {} substeps are {:.0f} steps, at most {:.0f}", frames,
+                                      time.substeps, frames * time.substeps, kMostSteps));
+}
+
+void check(KeyVisitor& v, const Block& block) {
+  const auto& n = block.cells;
+  const double tets = double(kTetsPerCell) * n[0] * n[1] * n[2];
+  if (tets > kMostTets)
+    v.problem("cells", fmt::format("{} x {} x {} cells would be up to {:.0f} tetrahedra, at most {:.0f}", n[0], n[1],
+                                   n[2], tets, kMostTets));
+}
+
+void check(KeyVisitor& v, const Grid& grid) {
+  const double triangles = 2.0 * grid.cells[0] * grid.cells[1];
+  if (triangles > kMostTriangles)
+    v.problem("cells", fmt::format("{} x {} cells would be {:.0f} triangles, at most {:.0f}", grid.cells[0],
+                                   grid.cells[1], triangles, kMostTriangles));
+}
+
+void check(KeyVisitor& v, const std::vector<MotionKey>& motion) {
+  for (size_t i = 1; i < motion.size(); ++i)
+    if (motion[i].t <= motion[i - 1].t)
+      v.problem(fmt::format("motion.{}.t", i + 1), fmt::format("found t = {}, expected more than the {} of the key "
+                                                               "frame before",
+                                                               motion[i].t, motion[i - 1].t));
+}
+
+void check(KeyVisitor& v, const Pin& pin) {
+  if (!v.given("box") && !v.given("vertices"))
+    v.problem("", "says of no vertices that they are held; add box = [[x, y, z], [x, y, z]] or vertices = [...]");
+  if (v.given("vertices") && !v.given("box") && pin.vertices.empty()) v.problem("vertices", "no vertices are listed");
+  only_for(v, v.given("motion"), {"pivot"}, "is what motion turns about, and there is no motion");
+}
+
+void check(KeyVisitor& v, const SoftBody& body) {
+  check_mesh_or(v, body, body.block.has_value(), "block", "block = { size = [1, 1, 1], cells = [8, 8, 8] }");
+  only_for(v, !body.block, {"tetrahedralize"}, "is for a mesh; a block is made of tetrahedra already");
+}
+
+void check(KeyVisitor& v, const Cloth& cloth) {
+  check_mesh_or(v, cloth, cloth.grid.has_value(), "grid", "grid = { size = [1, 1], cells = [32, 32] }");
+  const bool springs = cloth.model == ClothModel::kMassSpring;
+  only_for(v, springs, {"springs", "spring_damping"}, "is for model = \"mass-spring\"");
+  only_for(v, !springs, {"bending_model", "material.model"}, "is for model = \"membrane\"");
+  only_for(v, !springs, {"material.bending"}, "is for model = \"membrane\"; masses and springs have springs.bend");
+}
+
+void check(KeyVisitor& v, Collider& c) {
+  const auto shape = c.shape;
+  const bool round = shape == ColliderShape::kSphere || shape == ColliderShape::kCapsule;
+  only_for(v, shape == ColliderShape::kPlane, {"normal"}, "is for shape = \"plane\"");
+  only_for(v, round, {"radius"}, "is for shape = \"sphere\" or \"capsule\"");
+  only_for(v, shape == ColliderShape::kBox, {"size"}, "is for shape = \"box\"");
+  only_for(v, shape == ColliderShape::kCapsule, {"height"}, "is for shape = \"capsule\"");
+  nonzero(v, "normal", c.normal);
+  c.normal.normalize();
+  const Vec3& s = c.transform.scale;
+  if (round && (s.x() != s.y() || s.x() != s.z()))
+    v.problem("scale", "found three different numbers, expected one: a round shape has to stay round");
+}
+
+void check(KeyVisitor& v, const Camera& c) {
+  nonzero(v, "direction", c.direction);
+  nonzero(v, "up", c.up);
+  only_for(v, !c.position, {"direction"}, "has no effect when position is given; keep one of them");
+  if (c.position && c.target && (*c.position - *c.target).norm() < 1e-9)
+    return v.problem("target", "is the camera's own position; it would look nowhere");
+  if (c.position && !c.target) return;
+  const Vec3 view = c.position ? Vec3(*c.position - *c.target) : c.direction;
+  if (view.norm() > 0 && view.normalized().cross(c.up.normalized()).norm() < 1e-6)
+    v.problem("up", "is the direction in which the camera looks; the picture has no upright. Change up or position");
+}
+
+void check(KeyVisitor& v, const Light& light) {
+  const bool area = light.kind == LightKind::kArea;
+  nonzero(v, "direction", light.direction);
+  only_for(v, area, {"position", "radius"}, "is for kind = \"area\"");
+  only_for(v, !area, {"angle"}, "is for kind = \"sun\"; an area light has a radius");
+  only_for(v, !area || !light.position, {"direction"}, "has no effect when position is given; keep one of them");
+}
+
+void check(KeyVisitor& v, const Render& render) {
+  const double pixels = double(render.size[0]) * render.size[1];
+  if (pixels > kMostPixels)
+    v.problem("size", fmt::format("{} x {} are {:.0f} pixels, at most {:.0f}", render.size[0], render.size[1], pixels,
+                                  kMostPixels));
+}
+
+}  // namespace softreel::assets

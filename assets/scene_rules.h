@@ -1,0 +1,20 @@
+#pragma once
+// Rules that tie keys together. Each reports what breaks it through `v.problem`, with a path from the keys just walked.
+#include "assets/scene_table.h"
+
+namespace softreel::assets {
+
+void check(KeyVisitor& v, const Scene& scene);
+void check(KeyVisitor& v, const Time& time);
+void check(KeyVisitor& v, const Block& block);
+void check(KeyVisitor& v, const Grid& grid);
+void check(KeyVisitor& v, const Pin& pin);
+void check(KeyVisitor& v, const std::vector<MotionKey>& motion);
+void check(KeyVisitor& v, const SoftBody& body);
+void check(KeyVisitor& v, const Cloth& cloth);
+void check(KeyVisitor& v, Collider& collider);
+void check(KeyVisitor& v, const Camera& camera);
+void check(KeyVisitor& v, const Light& light);
+void check(KeyVisitor& v, const Render& render);
+
+}  // namespace softreel::assets
