@@ -1,0 +1,95 @@
+#include "sim/collider_contact.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "sim/parallel.h"
+
+namespace softreel::sim {
+
+ColliderContact::ColliderContact(const Eigen::VectorXd& masses, std::vector<Collider> colliders,
+                                 const ContactSettings& settings)
+    : masses_(masses),
+      colliders_(std::move(colliders)),
+      settings_(settings),
+      vertices_(static_cast<size_t>(masses.size())),
+      stiffness_(masses.size()),
+      posed_(colliders_.size()) {
+  std::iota(vertices_.begin(), vertices_.end(), 0);
+  stiffness_.setConstant(settings_.stiffness);
+  place(0);
+}
+
+void ColliderContact::place(double t) {
+  for (size_t c = 0; c < colliders_.size(); ++c) {
+    posed_[c].world_from_shape = colliders_[c].pose(t);
+    posed_[c].shape_from_world = posed_[c].world_from_shape.inverse();
+  }
+}
+
+void ColliderContact::begin_step(const StepContext& context) {
+  place(context.t + context.h);
+  if (settings_.stiffness > 0)
+    stiffness_.setConstant(settings_.stiffness);
+  else
+    stiffness_ = 100 / (context.h * context.h * settings_.distance) * masses_;
+}
+
+/// Calls each(intrusion, world normal) for the colliders within d_hat of the point; intrusion = d_hat - d > 0.
+template <class Visit>
+void ColliderContact::visit(const Eigen::Vector3d& point, const Visit& each) const {
+  for (size_t c = 0; c < colliders_.size(); ++c) {
+    const SignedDistance d = signed_distance(colliders_[c].shape, posed_[c].shape_from_world * point);
+    const double intrusion = settings_.distance - d.distance;
+    if (intrusion > 0) each(intrusion, Eigen::Vector3d(posed_[c].world_from_shape.linear() * d.normal));
+  }
+}
+
+double ColliderContact::value(const Eigen::VectorXd& x) const {
+  return parallel_sum(static_cast<int>(vertices_.size()), [&](int i) {
+    double sum = 0;
+    visit(x.segment<3>(3 * i), [&](double s, const Eigen::Vector3d&) { sum += stiffness_(i) / 3 * s * s * s; });
+    return sum;
+  });
+}
+
+void ColliderContact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
+  parallel_for(static_cast<int>(vertices_.size()), [&](int i) {
+    visit(x.segment<3>(3 * i), [&](double s, const Eigen::Vector3d& normal) {
+      gradient.segment<3>(3 * i) -= stiffness_(i) * s * s * normal;
+    });
+  });
+}
+
+// psi' < 0 and the distance from a convex shape is convex: the curvature part is negative semi-definite on the tangent
+// plane and clamped away; what stays is psi'' n n^T.
+void ColliderContact::element_hessians(const Eigen::VectorXd& x, double scale, Definiteness, double* blocks) const {
+  parallel_for(static_cast<int>(vertices_.size()), [&](int i) {
+    Eigen::Map<Eigen::Matrix3d> block(blocks + 9 * static_cast<size_t>(i));
+    block.setZero();
+    visit(x.segment<3>(3 * i), [&](double s, const Eigen::Vector3d& normal) {
+      block += scale * 2 * stiffness_(i) * s * normal * normal.transpose();
+    });
+  });
+}
+
+SignedDistance ColliderContact::at(int collider, double t, const Eigen::Vector3d& point) const {
+  const Collider& c = colliders_[static_cast<size_t>(collider)];
+  const Eigen::Isometry3d pose = c.pose(t);
+  SignedDistance d = signed_distance(c.shape, pose.inverse() * point);
+  d.normal = pose.linear() * d.normal;
+  return d;
+}
+
+ContactReport ColliderContact::report(const Eigen::VectorXd& x) const {
+  ContactReport report{0, std::numeric_limits<double>::infinity()};
+  for (int i : vertices_)
+    visit(x.segment<3>(3 * i), [&](double s, const Eigen::Vector3d&) {
+      ++report.active;
+      report.smallest = std::min(report.smallest, settings_.distance - s);
+    });
+  return report;
+}
+
+}  // namespace softreel::sim

@@ -1,0 +1,115 @@
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "sim/collider_contact.h"
+#include "sim/parallel.h"
+
+namespace softreel::sim {
+namespace {
+
+class ColliderFriction final : public EnergyTerm {
+ public:
+  ColliderFriction(const ColliderContact& contact, double slip_speed) : contact_(contact), slip_speed_(slip_speed) {}
+
+  std::string_view name() const override { return "friction"; }
+  EnergyKind kind() const override { return EnergyKind::kDissipation; }
+  int stencil_size() const override { return 1; }
+  std::span<const int> stencils() const override { return contact_.stencils(); }
+
+  void begin_step(const StepContext& context) override {
+    touches_.clear();
+    touches_of_.assign(contact_.stencils().size() + 1, 0);
+    const auto& colliders = contact_.colliders();
+    std::vector<Eigen::Isometry3d> now, shape_now, moved;  // poses at t, their inverses, and the move to t + h
+    for (const Collider& c : colliders) {
+      now.push_back(c.pose(context.t));
+      shape_now.push_back(now.back().inverse());
+      moved.push_back(c.pose(context.t + context.h) * shape_now.back());
+    }
+    for (int i : contact_.stencils()) {
+      const Eigen::Vector3d p = context.x.segment<3>(3 * i);
+      for (size_t c = 0; c < colliders.size(); ++c) {
+        if (colliders[c].friction <= 0) continue;
+        const SignedDistance d = signed_distance(colliders[c].shape, shape_now[c] * p);
+        const double intrusion = contact_.distance() - d.distance;
+        if (intrusion <= 0) continue;
+        touches_.push_back({colliders[c].friction * contact_.stiffness(i) * intrusion * intrusion,
+                            now[c].linear() * d.normal, (moved[c] * p - p) / context.h});
+      }
+      touches_of_[static_cast<size_t>(i) + 1] = static_cast<int>(touches_.size());
+    }
+  }
+
+  double value(const Eigen::VectorXd& v) const override {
+    return parallel_sum(vertices(), [&](int i) {
+      double sum = 0;
+      visit(i, [&](const Touch& touch) {
+        const double u = slip(touch, v, i).norm(), e = slip_speed_;
+        sum += touch.limit * (u < e ? u * u / e - u * u * u / (3 * e * e) : u - e / 3);
+      });
+      return sum;
+    });
+  }
+
+  void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override {
+    parallel_for(vertices(), [&](int i) {
+      visit(i, [&](const Touch& touch) {
+        const Eigen::Vector3d u = slip(touch, v, i);
+        gradient.segment<3>(3 * i) += touch.limit * over_speed(u.norm()) * u;
+      });
+    });
+  }
+
+  // f'(u)/u (T - uu^T/u^2) + f''(u) uu^T/u^2, both parts positive semi-definite.
+  void element_hessians(const Eigen::VectorXd& v, double scale, Definiteness, double* blocks) const override {
+    parallel_for(vertices(), [&](int i) {
+      Eigen::Map<Eigen::Matrix3d> block(blocks + 9 * static_cast<size_t>(i));
+      block.setZero();
+      visit(i, [&](const Touch& touch) {
+        const Eigen::Vector3d u = slip(touch, v, i);
+        const double speed = u.norm();
+        const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - touch.normal * touch.normal.transpose();
+        Eigen::Matrix3d D = over_speed(speed) * tangent;
+        if (speed > 0) {
+          const double second = speed < slip_speed_ ? 2 / slip_speed_ * (1 - speed / slip_speed_) : 0.0;
+          D += (second - over_speed(speed)) / (speed * speed) * u * u.transpose();
+        }
+        block += scale * touch.limit * D;
+      });
+    });
+  }
+
+ private:
+  struct Touch {
+    double limit;              // mu times the normal force [N]
+    Eigen::Vector3d normal;    // world
+    Eigen::Vector3d velocity;  // of the collider at the point [m/s]
+  };
+
+  int vertices() const { return touches_of_.empty() ? 0 : static_cast<int>(touches_of_.size()) - 1; }
+  template <class Visit>
+  void visit(int i, const Visit& each) const {
+    for (int k = touches_of_[static_cast<size_t>(i)]; k < touches_of_[static_cast<size_t>(i) + 1]; ++k)
+      each(touches_[static_cast<size_t>(k)]);
+  }
+  static Eigen::Vector3d slip(const Touch& touch, const Eigen::VectorXd& v, int i) {
+    const Eigen::Vector3d relative = v.segment<3>(3 * i) - touch.velocity;
+    return relative - touch.normal.dot(relative) * touch.normal;
+  }
+  /// f'(u)/u
+  double over_speed(double u) const { return u < slip_speed_ ? (2 - u / slip_speed_) / slip_speed_ : 1 / u; }
+
+  const ColliderContact& contact_;
+  double slip_speed_;            // [m/s]
+  std::vector<Touch> touches_;   // by vertex, then collider
+  std::vector<int> touches_of_;  // vertices + 1 offsets
+};
+
+}  // namespace
+
+std::unique_ptr<EnergyTerm> make_collider_friction(const ColliderContact& contact, double slip_speed) {
+  return std::make_unique<ColliderFriction>(contact, slip_speed);
+}
+
+}  // namespace softreel::sim

@@ -1,0 +1,70 @@
+#pragma once
+// What a scene is made of: a list of energies behind one small interface.
+#include <Eigen/Core>
+#include <span>
+#include <string_view>
+
+namespace softreel::sim {
+
+/// For the bookkeeping of energies.
+enum class EnergyKind { kElastic, kGravity, kContact, kDissipation };
+
+/// Which Hessian an element gives.
+enum class Definiteness {
+  kExact,
+  kClamped,  ///< negative eigenvalues of the element's Hessian set to zero; exact where there are none
+};
+
+/// The step that is about to be solved; lagged quantities are taken from it.
+struct StepContext {
+  const Eigen::VectorXd& x;            ///< positions at t, 3n [m]
+  const Eigen::VectorXd& v;            ///< velocities at t, 3n [m/s]
+  const Eigen::VectorXd& x_predicted;  ///< x + h v, 3n [m]
+  double t = 0;                        ///< start of the step [s]
+  double h = 0;                        ///< its length [s]
+};
+
+/// A scalar function of a stacked vector q (3n): a potential E(x) [J] of the positions, or a dissipation potential
+/// D(v) [W] of the velocities. Virtual once per term, never per element.
+///
+/// Its Hessian is a sum over small stencils of vertices. The stencils stay what they are for the life of the term.
+class EnergyTerm {
+ public:
+  virtual ~EnergyTerm() = default;
+
+  virtual std::string_view name() const = 0;
+  virtual EnergyKind kind() const = 0;
+
+  /// Takes lagged quantities from the start of a step; called once before each step is solved.
+  virtual void begin_step(const StepContext&) {}
+
+  virtual double value(const Eigen::VectorXd& q) const = 0;
+
+  /// gradient += d value / dq; both 3n.
+  virtual void add_gradient(const Eigen::VectorXd& q, Eigen::VectorXd& gradient) const = 0;
+
+  /// Vertices per stencil k (1 to 4); 0 for a term without a Hessian (a linear function).
+  virtual int stencil_size() const { return 0; }
+  /// Vertex indices, k per stencil.
+  virtual std::span<const int> stencils() const { return {}; }
+  /// True if the element Hessians never change: they are computed once.
+  virtual bool constant_hessian() const { return false; }
+
+  /// Writes scale * element Hessian of every stencil: its upper 3x3 blocks (a, b), a <= b, row by row, each
+  /// column-major: 9 k (k + 1) / 2 doubles per stencil.
+  virtual void element_hessians(const Eigen::VectorXd& q, double scale, Definiteness definiteness,
+                                double* blocks) const {
+    static_cast<void>(q), static_cast<void>(scale), static_cast<void>(definiteness), static_cast<void>(blocks);
+  }
+
+  /// The largest step s in (0, 1] along q + s dq that this term allows (nothing may pass through).
+  virtual double max_step(const Eigen::VectorXd& q, const Eigen::VectorXd& dq) const {
+    static_cast<void>(q), static_cast<void>(dq);
+    return 1.0;
+  }
+};
+
+/// Doubles that one stencil of k vertices writes in element_hessians.
+constexpr int hessian_doubles(int k) { return 9 * k * (k + 1) / 2; }
+
+}  // namespace softreel::sim

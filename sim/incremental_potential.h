@@ -1,0 +1,48 @@
+#pragma once
+// The function that an implicit step minimizes: Phi(y) = 1/2 |y - y_tilde|_M^2 + beta (E(y) + D(a y + b)/a).
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/hessian_assembler.h"
+#include "sim/implicit_method.h"
+#include "sim/model.h"
+#include "sim/step_report.h"
+
+namespace softreel::sim {
+
+class IncrementalPotential {
+ public:
+  /// Builds the sparsity pattern. `model` and `pins` must outlive this.
+  IncrementalPotential(const Model& model, const Pins& pins);
+
+  Stage& stage() { return stage_; }
+
+  struct Value {
+    double phi = 0;       ///< [J s^2]
+    double rounding = 0;  ///< bound of its rounding error
+  };
+  Value value(const Eigen::VectorXd& y, StepReport& report);
+
+  /// g = dPhi/dy, 3n [kg m]; zero where held.
+  void gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g, StepReport& report);
+
+  /// Clamped Hessian [kg]; identity where held.
+  void hessian(const Eigen::VectorXd& y, BlockMatrix& H, StepReport& report);
+
+  /// Largest step along dy that no term forbids, in (0, 1].
+  double max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const;
+
+  /// Per vertex, the largest diagonal entry of the Hessian of E at the start [N/m]: the scale of rounding in forces.
+  const Eigen::VectorXd& stiffness() const { return stiffness_; }
+
+ private:
+  void set_velocity(const Eigen::VectorXd& y);
+
+  const Model& model_;
+  const Pins& pins_;
+  HessianAssembler assembler_;
+  Stage stage_;
+  Eigen::VectorXd velocity_, scratch_, stiffness_;
+};
+
+}  // namespace softreel::sim

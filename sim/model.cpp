@@ -1,0 +1,32 @@
+#include "sim/model.h"
+
+namespace softreel::sim {
+
+Pins::Pins(const Model& model) : model_(model), fixed_(3 * static_cast<size_t>(model.vertices()), 0) {
+  for (const Pin& pin : model.pins)
+    for (int v : pin.vertices)
+      for (size_t axis = 0; axis < 3; ++axis)
+        if (pin.axes[axis]) {
+          fixed_[3 * static_cast<size_t>(v) + axis] = 1;
+          any_ = true;
+        }
+}
+
+void Pins::place(double t, Eigen::VectorXd& x) const {
+  for (const Pin& pin : model_.pins) {
+    const Eigen::Isometry3d pose = pin.motion.pose(t);
+    for (int v : pin.vertices) {
+      const Eigen::Vector3d target = pose * model_.x0.segment<3>(3 * v);
+      for (int axis = 0; axis < 3; ++axis)
+        if (pin.axes[axis]) x(3 * v + axis) = target(axis);
+    }
+  }
+}
+
+void Pins::zero(Eigen::VectorXd& vector) const {
+  if (!any_) return;
+  for (size_t i = 0; i < fixed_.size(); ++i)
+    if (fixed_[i]) vector(static_cast<Eigen::Index>(i)) = 0;
+}
+
+}  // namespace softreel::sim

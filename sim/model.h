@@ -1,0 +1,54 @@
+#pragma once
+// What is simulated: masses, energies and what is held. Built once from the scene, then left alone.
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sim/energy_term.h"
+#include "sim/motion.h"
+#include "sim/state.h"
+
+namespace softreel::sim {
+
+class ColliderContact;
+
+/// Vertices that are held, or driven along a scripted motion.
+struct Pin {
+  std::vector<int> vertices;
+  bool axes[3] = {true, true, true};  ///< which coordinates are held
+  Motion motion;                      ///< moves them from where they are at the start
+};
+
+struct Model {
+  std::vector<BodyRange> bodies;  ///< in increasing order, covering all vertices
+  Eigen::VectorXd masses;         ///< lumped, one per vertex, n [kg] > 0
+  Eigen::VectorXd x0, v0;         ///< at t = 0, 3n [m], [m/s]
+  std::vector<Pin> pins;
+  std::vector<std::unique_ptr<EnergyTerm>> potentials;    ///< E(x) [J]
+  std::vector<std::unique_ptr<EnergyTerm>> dissipations;  ///< D(v) [W]; begin their steps after the potentials
+  const ColliderContact* contact = nullptr;               ///< the one among the potentials, if any
+
+  int vertices() const { return static_cast<int>(masses.size()); }
+};
+
+/// Degrees of freedom that pins hold, and where they hold them.
+class Pins {
+ public:
+  explicit Pins(const Model& model);
+
+  bool any() const { return any_; }
+  /// 3n flags.
+  const std::vector<std::uint8_t>& fixed() const { return fixed_; }
+  /// x of every held degree of freedom := its scripted position at time t.
+  void place(double t, Eigen::VectorXd& x) const;
+  /// vector of every held degree of freedom := 0.
+  void zero(Eigen::VectorXd& vector) const;
+
+ private:
+  const Model& model_;
+  std::vector<std::uint8_t> fixed_;
+  bool any_ = false;
+};
+
+}  // namespace softreel::sim

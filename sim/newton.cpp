@@ -1,0 +1,129 @@
+#include "sim/newton.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "sim/parallel.h"
+#include "sim/stopwatch.h"
+
+namespace softreel::sim {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kArmijo = 1e-4;
+constexpr double kShortestStep = 1e-10;
+// A linear solve goes as far as the whole step needs, but no further than three digits at once: the next Newton
+// iteration has a better matrix.
+constexpr double kLinearShare = 0.3;
+constexpr double kLinearDigits = 1e-3;
+
+std::vector<double> body_norms(const Model& model, const Eigen::VectorXd& g) {
+  std::vector<double> norms;
+  norms.reserve(model.bodies.size());
+  for (const BodyRange& b : model.bodies) {
+    const double squared = parallel_sum(3 * b.count, [&](int i) {
+      const double v = g(3 * b.first + i);
+      return v * v;
+    });
+    norms.push_back(std::sqrt(squared));
+  }
+  return norms;
+}
+
+}  // namespace
+
+Newton::Newton(const Model& model, IncrementalPotential& phi, std::string_view linear_solver,
+               const NewtonSettings& settings)
+    : model_(model), phi_(phi), settings_(settings), linear_(make_linear_solver(linear_solver)) {}
+
+void Newton::prepare() {
+  if (analysed_) return;
+  StepReport ignored;
+  Stage& stage = phi_.stage();
+  stage.y_tilde = model_.x0;
+  stage.b = Eigen::VectorXd::Zero(model_.x0.size());
+  stage.beta = stage.a = 0;
+  phi_.hessian(model_.x0, H_, ignored);
+  linear_->analyse(H_);
+  analysed_ = true;
+}
+
+void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
+  const size_t bodies = model_.bodies.size();
+  phi_.gradient(y, g_, report);
+  const std::vector<double> g0 = body_norms(model_, g_);
+  std::vector<double> norms = g0;
+  std::vector<double> target(bodies), linear_target(bodies);
+  for (size_t b = 0; b < bodies; ++b) {
+    const BodyRange& body = model_.bodies[b];
+    const double beta = phi_.stage().beta;
+    const double squared = parallel_sum(body.count, [&](int k) {
+      const int i = body.first + k;
+      const double floor = (model_.masses(i) + beta * phi_.stiffness()(i)) * y.segment<3>(3 * i).norm();
+      return floor * floor;
+    });
+    target[b] = std::max(settings_.tolerance * g0[b], 16 * kEpsilon * std::sqrt(squared));
+  }
+  const auto fail = [&](const std::string& why) {
+    report.converged = false;
+    report.reason = why;
+  };
+  for (int iteration = 0;; ++iteration) {
+    bool converged = true;
+    double worst = 0;
+    for (size_t b = 0; b < bodies; ++b) {
+      if (!std::isfinite(norms[b])) return fail("forces on '" + model_.bodies[b].name + "' are not finite");
+      converged = converged && norms[b] <= target[b];
+      if (norms[b] > target[b] || iteration > 0) worst = std::max(worst, g0[b] > 0 ? norms[b] / g0[b] : 0.0);
+    }
+    if (converged) {
+      report.residual = std::max(report.residual, worst);
+      return;
+    }
+    if (iteration == settings_.max_iterations) {
+      size_t slowest = 0;
+      for (size_t b = 1; b < bodies; ++b)
+        if (norms[b] / target[b] > norms[slowest] / target[slowest]) slowest = b;
+      return fail("Newton's method did not converge in " + std::to_string(iteration) + " iterations on '" +
+                  model_.bodies[slowest].name + "'");
+    }
+    ++report.newton_iterations;
+    phi_.hessian(y, H_, report);
+    for (size_t b = 0; b < bodies; ++b) linear_target[b] = std::max(kLinearShare * target[b], kLinearDigits * norms[b]);
+    {
+      const Stopwatch watch(report.seconds.solve);
+      if (!analysed_) {
+        linear_->analyse(H_);
+        analysed_ = true;
+      }
+      linear_->factorize(H_);
+      const LinearReport linear = linear_->solve(-g_, {model_.bodies, linear_target}, d_);
+      report.linear_iterations += linear.iterations;
+      report.solver = linear.chosen;
+      if (!linear.ok) return fail("the linear solver failed: " + linear.reason);
+    }
+    const double slope = g_.dot(d_);
+    if (!(slope < 0)) return fail("the search direction does not go downhill");
+    const IncrementalPotential::Value start = phi_.value(y, report);
+    if (!line_search(y, start, slope, report)) return fail("the line search found no lower energy");
+    phi_.gradient(y, g_, report);
+    norms = body_norms(model_, g_);
+  }
+}
+
+/// Backtracking to Armijo's condition, forgiving what rounding of Phi may hide.
+bool Newton::line_search(Eigen::VectorXd& y, const IncrementalPotential::Value& start, double slope,
+                         StepReport& report) {
+  for (double step = phi_.max_step(y, d_); step > kShortestStep; step *= 0.5) {
+    trial_ = y + step * d_;
+    const IncrementalPotential::Value v = phi_.value(trial_, report);
+    if (std::isfinite(v.phi) && v.phi <= start.phi + kArmijo * step * slope + start.rounding) {
+      y.swap(trial_);
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace softreel::sim
