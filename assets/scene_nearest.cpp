@@ -29,7 +29,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
   constexpr size_t kLongestWord = 100;  // nothing longer is a misspelling
-  if (word.size() > kLongestWord) return {};
+  if (word.size() < 2 || word.size() > kLongestWord) return {};
   std::string nearest;
   int least = static_cast<int>(std::max<size_t>(1, std::min<size_t>(3, word.size() / 3))) + 1;
   for (const std::string& name : names) {

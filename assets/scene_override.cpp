@@ -10,6 +10,12 @@ namespace softreel::assets {
 
 namespace {
 
+std::string trimmed(const std::string& text) {
+  constexpr const char* kSpace = " \t\n\r";
+  const size_t begin = text.find_first_not_of(kSpace);
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
 std::vector<std::string> split(const std::string& path) {
   std::vector<std::string> parts(1);
   for (char c : path) {
@@ -40,9 +46,9 @@ class Override {
       fail("expected key=value, such as render.samples=4");
       return;
     }
-    parts_ = split(text.substr(0, equals));
+    parts_ = split(trimmed(text.substr(0, equals)));
     try {
-      value_ = parse_override_value(text.substr(equals + 1), origin_);
+      value_ = parse_override_value(trimmed(text.substr(equals + 1)), origin_);
     } catch (const UserError& error) {
       problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
       parts_.clear();

@@ -23,6 +23,8 @@ class Reader : public KeyVisitor {
   void read() {
     walk_scene(*this, scene_);
     leave();
+    if (scene_.soft.empty() && scene_.cloth.empty() && !misread_list_)
+      problem("", "there is nothing to simulate; add a [[soft]] or [[cloth]], such as: [[soft]] block = {}");
   }
 
   void key(const Key& key, const ValueRef& value) override {
@@ -56,12 +58,15 @@ class Reader : public KeyVisitor {
     const Node* node = take(section.name);
     if (!node) return;
     const std::string label = label_of(section.name);
-    if (!node->is_array())
+    if (!node->is_array()) {
+      misread_list_ = true;
       return report(node->where, fmt::format("{}: found {}, expected a list of tables; write [[{}]]", label,
                                              node->found(), path_of(section.name)));
+    }
     for (size_t i = 0; i < node->children.size(); ++i) {
       const Node& entry = node->children[i];
       if (!entry.is_table()) {
+        misread_list_ = true;
         report(entry.where, fmt::format("{}.{}: found {}, expected a table", label, i + 1, entry.found()));
         continue;
       }
@@ -146,6 +151,7 @@ class Reader : public KeyVisitor {
   Scene& scene_;
   std::vector<Problem>& problems_;
   Level level_;
+  bool misread_list_ = false;  ///< there may be more bodies than were read
 };
 
 void name_unnamed(Scene& scene) {

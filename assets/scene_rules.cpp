@@ -54,11 +54,7 @@ void check_names(KeyVisitor& v, const Scene& scene) {
 
 }  // namespace
 
-void check(KeyVisitor& v, const Scene& scene) {
-  if (scene.soft.empty() && scene.cloth.empty())
-    v.problem("", "there is nothing to simulate; add a [[soft]] or [[cloth]], such as: [[soft]] block = {}");
-  check_names(v, scene);
-}
+void check(KeyVisitor& v, const Scene& scene) { check_names(v, scene); }
 
 void check(KeyVisitor& v, const Time& time) {
   const double frames = time.duration * time.fps;
