@@ -17,7 +17,7 @@ struct Ground {
   glm::vec3 centre{0, 0, 0};  ///< about which it fades; y is not used
   float fade_begin = 5;       ///< distance from `centre` up to which it is opaque [m]
   float fade_end = 25;        ///< distance from which only the background is seen [m]
-  Look look;                  ///< texture is not used
+  Look look;                  ///< matte: only its color is used
 };
 
 /// Colours are linear; the radiance of a white matte surface under `sky` alone, facing up, is `sky`.

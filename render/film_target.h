@@ -1,10 +1,10 @@
 #pragma once
 // What a pass is drawn into, and the sum of the passes.
-#include <vector>
+#include <memory>
 
+#include "render/counters.h"
 #include "render/film.h"
 #include "render/gl_objects.h"
-#include "render/renderer.h"
 
 namespace softreel::render {
 

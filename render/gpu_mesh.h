@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "render/bounds.h"
+#include "render/counters.h"
 #include "render/gl_objects.h"
 #include "render/look.h"
-#include "render/renderer.h"
 #include "render/surface_mesh.h"
 
 namespace softreel::render {

@@ -10,6 +10,7 @@
 
 #include "render/bounds.h"
 #include "render/camera.h"
+#include "render/counters.h"
 #include "render/environment.h"
 #include "render/film.h"
 #include "render/image.h"
@@ -25,17 +26,6 @@ struct RenderOptions {
   int samples = 16;         ///< accumulation passes per picture, 1 .. 65536
   std::uint32_t seed = 0;   ///< of the sample sequence; the same for every frame, so that still parts do not flicker
   int shadow_map_size = 0;  ///< [texels]; 0: chosen from the picture's size
-};
-
-/// What was done since the renderer was made. A feature that a scene does not use leaves its counter at 0.
-struct RenderCounters {
-  std::size_t accumulation_buffers = 0;  ///< made; 0 for samples = 1
-  std::size_t shadow_maps = 0;           ///< textures made; 0 without a light that casts shadows
-  std::size_t textures = 0;              ///< base-colour textures uploaded
-  std::size_t mesh_uploads = 0;          ///< of positions and normals; one per mesh that does not move
-  std::size_t passes = 0;                ///< accumulation passes drawn
-  std::size_t shadow_passes = 0;         ///< shadow maps drawn
-  std::size_t draw_calls = 0;            ///< shadow passes included
 };
 
 using MeshId = std::size_t;

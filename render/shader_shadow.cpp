@@ -23,11 +23,9 @@ float pixel_turn() {
   return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715))));
 }
 
-// Points evenly over the unit disc (H. Vogel, Mathematical Biosciences 44, 1979).
-vec2 disc_point(int i, int count, float turn) {
-  float angle = 2.39996323 * float(i) + 6.2831853 * turn;
-  return sqrt((float(i) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
-}
+// Points evenly over the unit disc (H. Vogel, Mathematical Biosciences 44, 1979): each is turned by the golden angle
+// against the one before.
+const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
 // 0 in full shadow, 1 in full light. `normal`: of the surface as it is, unit, towards the light.
 float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
@@ -37,9 +35,10 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   float texel = s.filter_size.z * (perspective ? at.w : 1.0);  // [m] at this distance
   vec3 lifted = position + normal * (texel * (0.4 + 1.4 * sqrt(max(1 - n_dot_l * n_dot_l, 0))));
   at = s.map_from_world * vec4(lifted, 1);
-  if (at.w <= 0) return 1;
   vec3 p = at.xyz / at.w;
-  if (any(lessThan(p.xy, vec2(0))) || any(greaterThan(p.xy, vec2(1))) || p.z <= 0) return 1;
+  // llvmpipe runs both sides of an if, but leaves a loop when nobody is in it any more: what need not be done is a loop of no turns.
+  bool inside = at.w > 0 && all(greaterThan(p.xy, vec2(0))) && all(lessThan(p.xy, vec2(1))) && p.z > 0 && n_dot_l > 0;
+  int taps = inside ? SHADOW_TAPS : 0;
 
   vec4 plane = s.plane_from_world * vec4(normal, -dot(normal, lifted));
   vec2 texel_uv = 1.0 / vec2(textureSize(shadow_depth, 0).xy);
@@ -53,31 +52,36 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   float here = linear_depth(s.depth, p.z);
   float reach = s.filter_size.w * (perspective ? max(1 / s.depth.x - 1 / here, 0) : max(here - s.depth.x, 0));
   vec2 search = min(reach * s.filter_size.xy, vec2(0.12));
-  if (max(search.x, search.y) < max(texel_uv.x, texel_uv.y))
-    return texture(shadow_compare, vec4(p.xy, map, z));
+  // A small light, or many passes: its hard shadow, smoothed over a texel, is enough.
+  search = max(search, 1.2 * texel_uv);
 
-  float turn = pixel_turn();
+  float turn = 6.2831853 * pixel_turn();
+  vec2 first_direction = vec2(cos(turn), sin(turn));
+  vec2 direction = first_direction;
   float blocker = 0;
   float blockers = 0;
-  for (int i = 0; i < SHADOW_TAPS; ++i) {
-    vec2 d = disc_point(i, SHADOW_TAPS, turn) * search;
+  for (int i = 0; i < taps; ++i) {
+    vec2 d = sqrt((float(i) + 0.5) / SHADOW_TAPS) * direction * search;
+    direction = kGoldenTurn * direction;
     float stored = textureLod(shadow_depth, vec3(p.xy + d, map), 0).r;
-    // A caster must be clearly in front of the plane, more so farther out, or curved surfaces shade themselves.
-    if (stored < z + dot(d, slope)) {
-      blocker += linear_depth(s.depth, stored);
-      blockers += 1;
-    }
+    float in_front = stored < z + dot(d, slope) ? 1.0 : 0.0;
+    blocker += in_front * stored;
+    blockers += in_front;
   }
-  if (blockers == 0) return 1;
-  blocker /= blockers;
+  // The search reaches wider than the penumbra: nothing found is full light; nothing but blockers is full shadow, where there
+  // are enough of them to be sure.
+  taps = blockers > 0 && (SHADOW_TAPS < 8 || blockers < taps) ? taps : 0;
+  blocker = linear_depth(s.depth, blocker / max(blockers, 1));
   float width = s.filter_size.w * (perspective ? max(1 / blocker - 1 / here, 0) : max(here - blocker, 0));
   vec2 radius = clamp(width * s.filter_size.xy, 1.2 * texel_uv, vec2(0.12));
+  direction = first_direction;
   float light = 0;
-  for (int i = 0; i < SHADOW_TAPS; ++i) {
-    vec2 d = disc_point(i, SHADOW_TAPS, turn) * radius;
+  for (int i = 0; i < taps; ++i) {
+    vec2 d = sqrt((float(i) + 0.5) / SHADOW_TAPS) * direction * radius;
+    direction = kGoldenTurn * direction;
     light += texture(shadow_compare, vec4(p.xy + d, map, z + dot(d, slope)));
   }
-  return light / SHADOW_TAPS;
+  return taps > 0 ? light / taps : (blockers > 0 ? 0.0 : 1.0);
 }
 #endif
 )";

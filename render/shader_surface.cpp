@@ -26,6 +26,10 @@ Surface surface_here() {
 #ifdef TEXTURE
   base *= texture(color_texture, texture_uv).rgb;
 #endif
+#ifdef GROUND
+  s.diffuse = base;
+  return s;
+#endif
   float metallic = front_color.a;
   s.roughness = clamp(back_color.a, 0.03, 1);
   s.f0 = mix(vec3(0.04), base, metallic);
@@ -65,7 +69,11 @@ vec3 lit_by(Surface s, vec3 facet, LightData light) {
     if (visible == 0) return vec3(0);
   }
 #endif
+#ifdef GROUND
+  vec3 reflected = s.diffuse;
+#else
   vec3 reflected = s.diffuse + specular(s, to_light, n_dot_l, widen);
+#endif
 #ifdef SHEEN
   reflected += sheen_term(s, to_light, n_dot_l);
 #endif
@@ -73,13 +81,16 @@ vec3 lit_by(Surface s, vec3 facet, LightData light) {
 }
 
 vec3 lit_by_sky(Surface s, vec3 facet) {
-  vec3 mirrored = reflect(-s.view, s.normal);
   vec3 glow = s.diffuse * sky_irradiance(s.normal);
 #ifdef SHEEN
   float rim = 1 - s.n_dot_v;
   glow += 0.5 * s.sheen * rim * rim * rim * pass.sky.rgb;
 #endif
-  vec3 gloss = s.albedo_specular * sky_radiance(mirrored, s.roughness);
+#ifdef GROUND
+  vec3 gloss = vec3(0);
+#else
+  vec3 gloss = s.albedo_specular * sky_radiance(reflect(-s.view, s.normal), s.roughness);
+#endif
 #ifdef SKY_SHADOW
   // What the bodies hide of the sky is taken away from the exact unshadowed light. The directions are cosine distributed about the
   // vertical: the estimate for another normal is weighted by the ratio of the cosines.

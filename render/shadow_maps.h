@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "render/counters.h"
 #include "render/gl_objects.h"
 #include "render/gpu_mesh.h"
 

@@ -1,0 +1,136 @@
+#include "render/pass_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "render/shadow_frustum.h"
+
+namespace softreel::render {
+
+namespace {
+
+void check_light(const Light& light) {
+  const bool finite = std::isfinite(light.intensity) && std::isfinite(light.radius) &&
+                      std::isfinite(glm::length(light.position)) && std::isfinite(glm::length(light.direction));
+  if (!finite) throw std::invalid_argument("light: a value is not finite");
+  if (light.intensity < 0) throw std::invalid_argument("light: intensity must not be negative");
+  if (light.kind == LightKind::kSphere && (light.radius < 0 || light.reference_distance < 0))
+    throw std::invalid_argument("light: radius and reference distance must not be negative");
+  if (light.kind == LightKind::kSun && !(glm::length(light.direction) > 0))
+    throw std::invalid_argument("light: direction must not be zero");
+  if (light.kind == LightKind::kSun && !(light.angular_diameter >= 0 && light.angular_diameter < 170))
+    throw std::invalid_argument("light: angular diameter must lie in [0, 170) degrees");
+}
+
+/// Two unit vectors across `axis` (unit).
+std::pair<glm::vec3, glm::vec3> across(const glm::vec3& axis) {
+  const glm::vec3 helper = std::abs(axis.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+  const glm::vec3 u = glm::normalize(glm::cross(helper, axis));
+  return {u, glm::cross(axis, u)};
+}
+
+glm::mat4 pass_clip_from_world(const PictureSetup& picture, const glm::vec2& pixel) {
+  const glm::vec2 size(picture.width, picture.height);
+  glm::mat4 clip = clip_from_camera(picture.camera, size.x / size.y);
+  // Upside down, so that rows are read back from top to bottom; and moved by a part of a pixel.
+  for (int column = 0; column < 4; ++column) {
+    clip[column].y = -clip[column].y;
+    clip[column].x += 2 * pixel.x / size.x * clip[column].w;
+    clip[column].y += 2 * pixel.y / size.y * clip[column].w;
+  }
+  return clip * camera_from_world(picture.camera);
+}
+
+/// Fills the light's uniforms for one point of it, and its shadow map when it has one.
+void place_sphere(const PictureSetup& picture, const Light& light, const glm::vec2& disc, int map, LightUniforms& out,
+                  PassSetup& setup) {
+  const glm::vec3 way = picture.focus - light.position;
+  const auto [u, v] = across(glm::length(way) > 0 ? glm::normalize(way) : glm::vec3(0, -1, 0));
+  const glm::vec3 point = light.position + light.radius * (disc.x * u + disc.y * v);
+  const float part = light.radius / std::sqrt(static_cast<float>(picture.passes));
+  out.place = glm::vec4(point, 1);
+  out.color = glm::vec4(light.intensity * light.color, light.reference_distance * light.reference_distance);
+  out.extra = glm::vec4(part, map, std::max(light.radius, 1e-3f), 0);
+  if (map < 0) return;
+  const ShadowFrustum frustum = frustum_from_point(point, picture.casters, picture.shadow_map_size, part);
+  setup.uniforms.shadows[static_cast<std::size_t>(map)] = frustum.uniforms;
+  setup.shadow_clip_from_world[static_cast<std::size_t>(map)] = frustum.clip_from_world;
+}
+
+void place_parallel(const PictureSetup& picture, const glm::vec3& towards, float part_tangent, int map,
+                    PassSetup& setup) {
+  if (map < 0) return;
+  const ShadowFrustum frustum = frustum_along(towards, picture.casters, picture.shadow_map_size, part_tangent);
+  setup.uniforms.shadows[static_cast<std::size_t>(map)] = frustum.uniforms;
+  setup.shadow_clip_from_world[static_cast<std::size_t>(map)] = frustum.clip_from_world;
+}
+
+void place_sun(const PictureSetup& picture, const Light& light, const glm::vec2& disc, int map, LightUniforms& out,
+               PassSetup& setup) {
+  const glm::vec3 axis = -glm::normalize(light.direction);
+  const auto [u, v] = across(axis);
+  const float tangent = std::tan(glm::radians(0.5f * light.angular_diameter));
+  const glm::vec3 towards = glm::normalize(axis + tangent * (disc.x * u + disc.y * v));
+  const float part = tangent / std::sqrt(static_cast<float>(picture.passes));
+  out.place = glm::vec4(towards, 0);
+  out.color = glm::vec4(light.intensity * light.color, 0);
+  out.extra = glm::vec4(part, map, 0, 0);
+  place_parallel(picture, towards, part, map, setup);
+}
+
+}  // namespace
+
+PictureSetup set_up_picture(const Camera& camera, std::span<const Light> lights, const Environment& environment,
+                            std::vector<Bounds> casters) {
+  PictureSetup picture;
+  picture.camera = camera;
+  picture.casters = std::move(casters);
+  Bounds all;
+  for (const Bounds& box : picture.casters) all.add(box);
+  picture.focus = all.empty() ? camera.target : all.centre();
+  for (const Light& light : lights) {
+    check_light(light);
+    if (light.intensity == 0 || light.color == glm::vec3(0)) continue;
+    const bool shadow = light.casts_shadow && !picture.casters.empty();
+    picture.lights.push_back(light);
+    picture.shadow_map.push_back(shadow ? picture.shadow_maps++ : -1);
+  }
+  if (picture.lights.size() > kMaxLights)
+    throw std::invalid_argument(fmt::format("{} lights; at most {} can shine", picture.lights.size(), kMaxLights));
+  if (environment.sky_shadow && environment.sky != glm::vec3(0) && !picture.casters.empty())
+    picture.sky_map = picture.shadow_maps++;
+  return picture;
+}
+
+PassSetup set_up_pass(const PictureSetup& picture, const Environment& environment, const PassSample& sample, int pass) {
+  PassSetup setup;
+  PassUniforms& uniforms = setup.uniforms;
+  setup.shadow_clip_from_world.resize(static_cast<std::size_t>(picture.shadow_maps));
+  uniforms.clip_from_world = pass_clip_from_world(picture, sample.pixel);
+  uniforms.camera = glm::vec4(picture.camera.position, static_cast<float>(pass % 64));
+  uniforms.sky = glm::vec4(environment.sky, 0);
+  uniforms.ground_light = glm::vec4(environment.ground_light, 0);
+  const Ground& ground = environment.ground;
+  uniforms.ground = glm::vec4(ground.centre.x, ground.centre.z, ground.fade_begin,
+                              std::max(ground.fade_end, ground.fade_begin * 1.001f));
+  for (std::size_t i = 0; i < picture.lights.size(); ++i) {
+    const Light& light = picture.lights[i];
+    const auto place = light.kind == LightKind::kSphere ? place_sphere : place_sun;
+    place(picture, light, sample.lights[i], picture.shadow_map[i], uniforms.lights[i], setup);
+  }
+  if (picture.sky_map >= 0) {
+    const float height = std::sqrt(std::max(1 - glm::dot(sample.sky, sample.sky), 0.0f));
+    const glm::vec3 towards = glm::normalize(glm::vec3(sample.sky.x, std::max(height, 0.02f), sample.sky.y));
+    // 1/N of the unit disc under the hemisphere, seen as a cone.
+    const float part = std::min(1 / std::sqrt(static_cast<float>(picture.passes)), 0.7f);
+    uniforms.sky_direction = glm::vec4(towards, picture.sky_map);
+    place_parallel(picture, towards, part / std::sqrt(1 - part * part), picture.sky_map, setup);
+  }
+  return setup;
+}
+
+}  // namespace softreel::render

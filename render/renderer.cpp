@@ -1,0 +1,264 @@
+#include "render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "render/film_target.h"
+#include "render/gl_context.h"
+#include "render/gpu_mesh.h"
+#include "render/pass_setup.h"
+#include "render/sampling.h"
+#include "render/shadow_maps.h"
+#include "render/surface_programs.h"
+
+namespace softreel::render {
+
+namespace {
+
+void check_options(const RenderOptions& options) {
+  if (options.width < 1 || options.height < 1 || options.width > kMaxImageSide || options.height > kMaxImageSide)
+    throw std::invalid_argument(fmt::format("a picture of {} x {} pixels: each side must be 1 to {}", options.width,
+                                            options.height, kMaxImageSide));
+  if (options.samples < 1 || options.samples > 65536)
+    throw std::invalid_argument(fmt::format("{} samples: must be 1 to 65536", options.samples));
+  if (options.shadow_map_size != 0 && (options.shadow_map_size < 16 || options.shadow_map_size > 8192))
+    throw std::invalid_argument(
+        fmt::format("shadow maps of {} texels: must be 16 to 8192, or 0", options.shadow_map_size));
+}
+
+/// A single pass must be sharp by itself; the maps of many passes, each seen from another point, refine one another.
+int shadow_map_size(const RenderOptions& options) {
+  if (options.shadow_map_size != 0) return options.shadow_map_size;
+  const int side = std::max(options.width, options.height);
+  const int fine = side <= 480 ? 1024 : 2048;
+  return options.samples >= 4 && side <= 1920 ? 1024 : fine;
+}
+
+}  // namespace
+
+struct Renderer::State {
+  explicit State(const RenderOptions& asked)
+      : options(asked), gl(load_gl_functions()), film(gl, asked.width, asked.height), programs(gl), textures(gl) {
+    pass_buffer = make_buffer(gl, sizeof(PassUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  }
+
+  RenderOptions options;
+  GlContext context;
+  GlFunctions gl;
+  RenderCounters counters;
+  FilmTarget film;
+  SurfacePrograms programs;
+  ColorTextures textures;
+  GlBuffer pass_buffer;
+  std::optional<ShadowMaps> shadow_maps;
+  std::vector<std::unique_ptr<GpuMesh>> meshes;
+  std::unique_ptr<GpuMesh> ground;
+
+  GpuMesh& mesh(MeshId id) {
+    if (id >= meshes.size()) throw std::invalid_argument(fmt::format("mesh {} of {}", id, meshes.size()));
+    return *meshes[id];
+  }
+
+  std::vector<const GpuMesh*> drawn() const {
+    std::vector<const GpuMesh*> result;
+    for (const auto& mesh : meshes)
+      if (mesh->visible && mesh->has_positions()) result.push_back(mesh.get());
+    return result;
+  }
+
+  void upload_changes() {
+    for (const auto& mesh : meshes) {
+      if (!mesh->visible) continue;
+      mesh->upload(counters);
+      for (const Look& look : mesh->looks())
+        if (look.texture && mesh->has_uv()) textures.add(*look.texture, counters);
+    }
+  }
+
+  void prepare_ground(const Ground& plan) {
+    if (!ground) {
+      Shape shape = make_plane(2, 2);
+      ground = std::make_unique<GpuMesh>(gl, std::move(shape.mesh), std::vector<Look>{Look{}});
+      ground->set_positions(shape.positions);
+      ground->upload(counters);
+    }
+    const float reach = std::max(plan.fade_end, plan.fade_begin);
+    ground->world_from_mesh = glm::translate(glm::mat4(1), glm::vec3(plan.centre.x, plan.height, plan.centre.z)) *
+                              glm::scale(glm::mat4(1), glm::vec3(reach, 1, reach));
+  }
+
+  void prepare_shadow_maps(int layers) {
+    if (layers == 0 || (shadow_maps && shadow_maps->layers() >= layers)) return;
+    shadow_maps.emplace(gl, shadow_map_size(options), layers);
+    ++counters.shadow_maps;
+  }
+
+  SurfaceFeatures features_of(const PictureSetup& picture) const {
+    SurfaceFeatures features;
+    features.lights = static_cast<int>(picture.lights.size());
+    features.shadows =
+        std::any_of(picture.shadow_map.begin(), picture.shadow_map.end(), [](int map) { return map >= 0; });
+    features.sky_shadow = picture.sky_map >= 0;
+    features.shadow_taps = picture.passes == 1 ? 12 : picture.passes < 8 ? 4 : 2;
+    return features;
+  }
+
+  void draw_part(const GpuMesh& mesh, const MeshPart& part, const Look& look, SurfaceFeatures features) {
+    features.texture = look.texture != nullptr && mesh.has_uv() && !features.ground;
+    features.sheen = look.sheen > 0;
+    const GLuint program = programs.program(features);
+    gl.UseProgram(program);
+    if (features.texture) textures.bind(*look.texture);
+    const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(mesh.world_from_mesh)));
+    const glm::vec4 front(look.color, look.metallic);
+    const glm::vec4 back(look.back_color.value_or(look.color), look.roughness);
+    gl.ProgramUniformMatrix4fv(program, kWorldFromMeshUniform, 1, GL_FALSE, glm::value_ptr(mesh.world_from_mesh));
+    gl.ProgramUniformMatrix3fv(program, kNormalMatrixUniform, 1, GL_FALSE, glm::value_ptr(normal_matrix));
+    gl.ProgramUniform4fv(program, kFrontColorUniform, 1, glm::value_ptr(front));
+    gl.ProgramUniform4fv(program, kBackColorUniform, 1, glm::value_ptr(back));
+    if (features.sheen) gl.ProgramUniform1f(program, kSheenUniform, look.sheen);
+    if (look.two_sided)
+      gl.Disable(GL_CULL_FACE);
+    else
+      gl.Enable(GL_CULL_FACE);
+    // The picture is drawn upside down, which turns every triangle round; a mirroring transform does it once more.
+    const bool mirrored = glm::determinant(glm::mat3(mesh.world_from_mesh)) < 0;
+    gl.FrontFace(mirrored ? GL_CCW : GL_CW);
+    mesh.draw(part.first_triangle, part.triangle_count);
+    ++counters.draw_calls;
+  }
+
+  void draw_surfaces(const std::vector<const GpuMesh*>& meshes_drawn, const Environment& environment,
+                     const SurfaceFeatures& features) {
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.Disable(GL_BLEND);
+    gl.CullFace(GL_BACK);
+    for (const GpuMesh* mesh : meshes_drawn)
+      for (const MeshPart& part : mesh->parts()) draw_part(*mesh, part, mesh->look(part.look), features);
+    if (!environment.ground.visible) return;
+    // Last: most of it is hidden by then, and it lets through what lies behind where it fades.
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    SurfaceFeatures ground_features = features;
+    ground_features.ground = true;
+    draw_part(*ground, ground->parts()[0], environment.ground.look, ground_features);
+  }
+
+  void draw_pass(const PictureSetup& picture, const Environment& environment, const PassSample& sample, int pass) {
+    const PassSetup setup = set_up_pass(picture, environment, sample, pass);
+    const std::vector<const GpuMesh*> meshes_drawn = drawn();
+    std::vector<const GpuMesh*> casters;
+    std::copy_if(meshes_drawn.begin(), meshes_drawn.end(), std::back_inserter(casters),
+                 [](const GpuMesh* mesh) { return mesh->casts_shadow; });
+    for (int map = 0; map < picture.shadow_maps; ++map)
+      shadow_maps->draw(map, setup.shadow_clip_from_world[static_cast<std::size_t>(map)], casters, counters);
+
+    gl.NamedBufferSubData(*pass_buffer, 0, sizeof(PassUniforms), &setup.uniforms);
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, kPassBinding, *pass_buffer);
+    film.begin_pass();
+    if (picture.shadow_maps > 0) shadow_maps->bind();
+    draw_surfaces(meshes_drawn, environment, features_of(picture));
+    ++counters.passes;
+  }
+
+  Bounds world_bounds() const {
+    Bounds bounds;
+    for (const GpuMesh* mesh : drawn()) bounds.add(mesh->world_bounds());
+    return bounds;
+  }
+
+  PictureSetup set_up(const Camera& camera, std::span<const Light> lights, const Environment& environment) {
+    std::vector<Bounds> casters;
+    for (const GpuMesh* mesh : drawn())
+      if (mesh->casts_shadow) casters.push_back(mesh->world_bounds());
+    Bounds seen = world_bounds();
+    if (environment.ground.visible) seen.add(ground->world_bounds());
+    PictureSetup picture = set_up_picture(fit_near_far(camera, seen), lights, environment, std::move(casters));
+    picture.width = options.width;
+    picture.height = options.height;
+    picture.passes = options.samples;
+    picture.shadow_map_size = shadow_map_size(options);
+    return picture;
+  }
+};
+
+Renderer::Renderer(const RenderOptions& options) {
+  check_options(options);
+  state_ = std::make_unique<State>(options);
+}
+
+Renderer::~Renderer() {
+  // Names are deleted in the context that they belong to.
+  if (state_) state_->context.make_current();
+}
+
+MeshId Renderer::add_mesh(SurfaceMesh mesh, std::vector<Look> looks) {
+  check_mesh(mesh, looks.size());
+  state_->context.make_current();
+  state_->meshes.push_back(std::make_unique<GpuMesh>(state_->gl, std::move(mesh), std::move(looks)));
+  return state_->meshes.size() - 1;
+}
+
+MeshId Renderer::add_shape(Shape shape, const Look& look) {
+  const std::vector<glm::vec3> positions = std::move(shape.positions);
+  const MeshId id = add_mesh(std::move(shape.mesh), {look});
+  set_positions(id, positions);
+  return id;
+}
+
+void Renderer::set_positions(MeshId mesh, std::span<const glm::vec3> positions) {
+  state_->mesh(mesh).set_positions(positions);
+}
+
+void Renderer::set_transform(MeshId mesh, const glm::mat4& world_from_mesh) {
+  state_->mesh(mesh).world_from_mesh = world_from_mesh;
+}
+
+void Renderer::set_visible(MeshId mesh, bool visible) { state_->mesh(mesh).visible = visible; }
+
+void Renderer::set_casts_shadow(MeshId mesh, bool casts) { state_->mesh(mesh).casts_shadow = casts; }
+
+Bounds Renderer::bounds() const { return state_->world_bounds(); }
+
+FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> lights,
+                                   const Environment& environment) {
+  State& s = *state_;
+  s.context.make_current();
+  s.upload_changes();
+  if (environment.ground.visible) s.prepare_ground(environment.ground);
+  const PictureSetup picture = s.set_up(camera, lights, environment);
+  s.prepare_shadow_maps(picture.shadow_maps);
+  const std::vector<PassSample> samples = pass_samples(picture.passes, picture.lights.size(), s.options.seed);
+  for (int pass = 0; pass < picture.passes; ++pass) {
+    s.draw_pass(picture, environment, samples[static_cast<std::size_t>(pass)], pass);
+    if (picture.passes > 1) s.film.accumulate(pass == 0, s.counters);
+  }
+  return s.film.read(picture.passes);
+}
+
+Image Renderer::render(const Camera& camera, std::span<const Light> lights, const Environment& environment) {
+  return develop(render_linear(camera, lights, environment), environment);
+}
+
+const RenderOptions& Renderer::options() const { return state_->options; }
+
+const RenderCounters& Renderer::counters() const { return state_->counters; }
+
+std::string Renderer::driver() const {
+  state_->context.make_current();
+  const auto text = [&](GLenum name) {
+    const GLubyte* bytes = state_->gl.GetString(name);
+    return std::string(bytes != nullptr ? reinterpret_cast<const char*>(bytes) : "unknown");
+  };
+  const std::string version = text(GL_VERSION);
+  const std::size_t mesa = version.find("Mesa");
+  return fmt::format("{}, {}", mesa == std::string::npos ? version : version.substr(mesa), text(GL_RENDERER));
+}
+
+}  // namespace softreel::render

@@ -1,0 +1,43 @@
+#include "render/surface_programs.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace softreel::render {
+
+namespace {
+
+constexpr GLenum kMaxAnisotropy = 0x84FE;  // GL_TEXTURE_MAX_ANISOTROPY, core since 4.6, an extension everywhere before
+
+}  // namespace
+
+GLuint SurfacePrograms::program(const SurfaceFeatures& features) {
+  const auto place = programs_.find(features);
+  if (place != programs_.end()) return *place->second;
+  return *programs_.emplace(features, GlProgram(gl_, surface_vertex_source(), surface_fragment_source(features)))
+              .first->second;
+}
+
+void ColorTextures::add(const Image& image, RenderCounters& counters) {
+  if (textures_.contains(&image)) return;
+  if (!sampler_) {
+    sampler_ = make_sampler(gl_, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT);
+    // Four is enough to keep slanted cloth sharp; each doubling costs as much again in software.
+    gl_.SamplerParameterf(*sampler_, kMaxAnisotropy, 4);
+    gl_.GetError();  // a driver without the extension refuses; trilinear then is what there is
+  }
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
+  GlTexture texture = make_texture(gl_, GL_SRGB8_ALPHA8, image.width, image.height, levels);
+  gl_.TextureSubImage2D(*texture, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  gl_.GenerateTextureMipmap(*texture);
+  check_gl(gl_, "upload a texture");
+  textures_.emplace(&image, std::move(texture));
+  ++counters.textures;
+}
+
+void ColorTextures::bind(const Image& image) const {
+  gl_.BindTextureUnit(kColorTextureUnit, *textures_.at(&image));
+  gl_.BindSampler(kColorTextureUnit, *sampler_);
+}
+
+}  // namespace softreel::render

@@ -1,0 +1,35 @@
+#pragma once
+// Programs and textures by what a look needs; made when first needed.
+#include <map>
+
+#include "render/counters.h"
+#include "render/gl_objects.h"
+#include "render/image.h"
+#include "render/shader_sources.h"
+
+namespace softreel::render {
+
+class SurfacePrograms {
+ public:
+  explicit SurfacePrograms(const GlFunctions& gl) : gl_(gl) {}
+  GLuint program(const SurfaceFeatures& features);
+
+ private:
+  const GlFunctions& gl_;
+  std::map<SurfaceFeatures, GlProgram> programs_;
+};
+
+class ColorTextures {
+ public:
+  explicit ColorTextures(const GlFunctions& gl) : gl_(gl) {}
+  /// Uploads the picture, unless it already is there. The picture must stay alive as long as this does.
+  void add(const Image& image, RenderCounters& counters);
+  void bind(const Image& image) const;
+
+ private:
+  const GlFunctions& gl_;
+  std::map<const Image*, GlTexture> textures_;
+  GlSampler sampler_;
+};
+
+}  // namespace softreel::render
