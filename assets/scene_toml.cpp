@@ -4,6 +4,7 @@
 // would end the program (3.3, parse_table_header into parse_key).
 #undef NDEBUG
 #define TOML_ASSERT(condition) static_assert(true)
+#define TOML_MAX_NESTED_VALUES 32  // a scene needs ten; less depth to recurse into
 #define TOML_ENABLE_FORMATTERS 0
 #include <fmt/format.h>
 
