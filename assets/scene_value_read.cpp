@@ -102,7 +102,7 @@ class ValueReader {
 
   template <class T>
   bool read(const Node& node, std::optional<T>* out) {
-    T value;
+    T value{};
     if (!read(node, &value)) return false;
     *out = value;
     return true;

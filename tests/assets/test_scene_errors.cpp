@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <array>
 
@@ -127,7 +128,7 @@ TEST_CASE("all mistakes of a file are reported at once, from top to bottom") {
 
 TEST_CASE("a file that is wrong a thousand times is reported in a hundred lines") {
   std::string text;
-  for (int i = 0; i < 1000; ++i) text += "x" + std::to_string(i) + " = 1\n";
+  for (int i = 0; i < 1000; ++i) text += fmt::format("x{} = 1\n", i);
   const std::vector<Problem> problems = problems_of(text);
   CHECK(problems.size() == 101);
   CHECK(contains(problems.back().message, "and 901 more"));
@@ -136,7 +137,8 @@ TEST_CASE("a file that is wrong a thousand times is reported in a hundred lines"
 TEST_CASE("a long text is cut between letters when it is quoted in a message") {
   std::string text = "[time]\nintegrator = '";
   for (int i = 0; i < 50; ++i) text += "\xc3\xa4";  // a two-byte letter
-  const std::string report = report_of(text + "x'" + kBody);
+  text += "x'";
+  const std::string report = report_of(text + kBody);
   CHECK(contains(report, "..."));
   CHECK(!contains(report, "\xc3.."));
 }
