@@ -1,16 +1,12 @@
 #include "sim/incremental_potential.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "sim/parallel.h"
 #include "sim/stopwatch.h"
 
 namespace softreel::sim {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 std::vector<const EnergyTerm*> all_terms(const Model& model) {
   std::vector<const EnergyTerm*> terms;
@@ -53,28 +49,20 @@ void IncrementalPotential::set_velocity(const Eigen::VectorXd& y) {
   if (!model_.dissipations.empty()) velocity_ = stage_.a * y + stage_.b;
 }
 
-IncrementalPotential::Value IncrementalPotential::value(const Eigen::VectorXd& y, StepReport& report) {
-  Value v;
-  v.phi = 0.5 * parallel_sum(model_.vertices(), [&](int i) {
-            return model_.masses(i) * (y.segment<3>(3 * i) - stage_.y_tilde.segment<3>(3 * i)).squaredNorm();
-          });
-  double magnitude = v.phi;
+double IncrementalPotential::value(const Eigen::VectorXd& y, StepReport& report) {
+  double phi = 0.5 * parallel_sum(model_.vertices(), [&](int i) {
+                 return model_.masses(i) * (y.segment<3>(3 * i) - stage_.y_tilde.segment<3>(3 * i)).squaredNorm();
+               });
   for (const auto& term : model_.potentials) {
     const Stopwatch watch(stage_of(*term, report));
-    const double e = stage_.beta * term->value(y);
-    v.phi += e;
-    magnitude += std::abs(e);
+    phi += stage_.beta * term->value(y);
   }
   set_velocity(y);
   for (const auto& term : model_.dissipations) {
     const Stopwatch watch(stage_of(*term, report));
-    const double d = stage_.beta / stage_.a * term->value(velocity_);
-    v.phi += d;
-    magnitude += std::abs(d);
+    phi += stage_.beta / stage_.a * term->value(velocity_);
   }
-  // Sums of n terms in chunks: the error grows with their depth, not with n.
-  v.rounding = 64 * kEpsilon * magnitude;
-  return v;
+  return phi;
 }
 
 void IncrementalPotential::gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g, StepReport& report) {

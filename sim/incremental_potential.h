@@ -17,11 +17,7 @@ class IncrementalPotential {
 
   Stage& stage() { return stage_; }
 
-  struct Value {
-    double phi = 0;       ///< [J s^2]
-    double rounding = 0;  ///< bound of its rounding error
-  };
-  Value value(const Eigen::VectorXd& y, StepReport& report);
+  double value(const Eigen::VectorXd& y, StepReport& report);  ///< [J s^2]
 
   /// g = dPhi/dy, 3n [kg m]; zero where held.
   void gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g, StepReport& report);
@@ -31,6 +27,9 @@ class IncrementalPotential {
 
   /// Largest step along dy that no term forbids, in (0, 1].
   double max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const;
+
+  /// 3n flags of what pins hold.
+  const std::vector<std::uint8_t>& held() const { return pins_.fixed(); }
 
   /// Per vertex, the largest diagonal entry of the Hessian of E at the start [N/m]: the scale of rounding in forces.
   const Eigen::VectorXd& stiffness() const { return stiffness_; }

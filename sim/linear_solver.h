@@ -1,6 +1,7 @@
 #pragma once
 // Linear systems A x = b with A symmetric positive definite: analyse / factorize / solve.
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,7 +17,10 @@ namespace softreel::sim {
 /// heavy solid gets its own accuracy. Direct solvers ignore it.
 struct LinearTargets {
   std::span<const BodyRange> bodies;
-  std::span<const double> residual;  ///< one per body, in the unit of b
+  std::span<const double> residual;            ///< one per body, in the unit of b
+  const Eigen::VectorXd* positions = nullptr;  ///< 3n [m]: what the rigid modes of the bodies are made of; may be null
+  const std::vector<std::uint8_t>* held =
+      nullptr;  ///< 3n flags: rows of the identity, which no mode may move; may be null
 };
 
 struct LinearReport {
@@ -61,6 +65,10 @@ class CholeskySolver final : public LinearSolver {
 };
 
 /// Conjugate gradients with a 3x3 block-Jacobi preconditioner.
+///
+/// The residual of a stiff body is all strain: stopped at a thousandth of it, the rigid motion, whose forces are small,
+/// could still be wrong altogether. So the solve ends with a projection onto the six rigid modes of every body (as far
+/// as `positions` are given): their part of the error is gone, momentum is kept as a direct solver keeps it.
 class ConjugateGradientSolver final : public LinearSolver {
  public:
   void analyse(const BlockMatrix&) override {}
@@ -71,6 +79,8 @@ class ConjugateGradientSolver final : public LinearSolver {
   void set_max_iterations(long n) { max_iterations_ = n; }
 
  private:
+  void correct_rigid_modes(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x);
+
   const BlockMatrix* A_ = nullptr;
   std::vector<double> inverse_diagonal_;  // 9 doubles per block
   long max_iterations_ = 0;

@@ -11,12 +11,13 @@ namespace softreel::sim {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kRounding = 16 * kEpsilon;  // of forces and energies, relative to stiffness times position
 constexpr double kArmijo = 1e-4;
+constexpr double kFlatter = 0.9;
 constexpr double kShortestStep = 1e-10;
-// A linear solve goes as far as the whole step needs, but no further than three digits at once: the next Newton
-// iteration has a better matrix.
+// A linear solve goes as far as the whole step needs, but no further than linear_tolerance at once: the
+// next Newton iteration has a better matrix.
 constexpr double kLinearShare = 0.3;
-constexpr double kLinearDigits = 1e-3;
 
 std::vector<double> body_norms(const Model& model, const Eigen::VectorXd& g) {
   std::vector<double> norms;
@@ -55,15 +56,21 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
   const std::vector<double> g0 = body_norms(model_, g_);
   std::vector<double> norms = g0;
   std::vector<double> target(bodies), linear_target(bodies);
+  double phi_rounding = 0;
   for (size_t b = 0; b < bodies; ++b) {
     const BodyRange& body = model_.bodies[b];
     const double beta = phi_.stage().beta;
+    const auto diagonal = [&](int i) { return model_.masses(i) + beta * phi_.stiffness()(i); };
     const double squared = parallel_sum(body.count, [&](int k) {
       const int i = body.first + k;
-      const double floor = (model_.masses(i) + beta * phi_.stiffness()(i)) * y.segment<3>(3 * i).norm();
+      const double floor = diagonal(i) * y.segment<3>(3 * i).norm();
       return floor * floor;
     });
-    target[b] = std::max(settings_.tolerance * g0[b], 16 * kEpsilon * std::sqrt(squared));
+    phi_rounding += kRounding * parallel_sum(body.count, [&](int k) {
+                      const int i = body.first + k;
+                      return diagonal(i) * y.segment<3>(3 * i).squaredNorm();
+                    });
+    target[b] = std::max(settings_.tolerance * g0[b], kRounding * std::sqrt(squared));
   }
   const auto fail = [&](const std::string& why) {
     report.converged = false;
@@ -90,7 +97,8 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
     }
     ++report.newton_iterations;
     phi_.hessian(y, H_, report);
-    for (size_t b = 0; b < bodies; ++b) linear_target[b] = std::max(kLinearShare * target[b], kLinearDigits * norms[b]);
+    for (size_t b = 0; b < bodies; ++b)
+      linear_target[b] = std::max(kLinearShare * target[b], settings_.linear_tolerance * norms[b]);
     {
       const Stopwatch watch(report.seconds.solve);
       if (!analysed_) {
@@ -98,27 +106,33 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
         analysed_ = true;
       }
       linear_->factorize(H_);
-      const LinearReport linear = linear_->solve(-g_, {model_.bodies, linear_target}, d_);
+      const LinearReport linear = linear_->solve(-g_, {model_.bodies, linear_target, &y, &phi_.held()}, d_);
       report.linear_iterations += linear.iterations;
       report.solver = linear.chosen;
       if (!linear.ok) return fail("the linear solver failed: " + linear.reason);
     }
     const double slope = g_.dot(d_);
     if (!(slope < 0)) return fail("the search direction does not go downhill");
-    const IncrementalPotential::Value start = phi_.value(y, report);
-    if (!line_search(y, start, slope, report)) return fail("the line search found no lower energy");
+    if (!line_search(y, slope, phi_rounding, report)) return fail("the line search found no lower energy");
     phi_.gradient(y, g_, report);
     norms = body_norms(model_, g_);
   }
 }
 
-/// Backtracking to Armijo's condition, forgiving what rounding of Phi may hide.
-bool Newton::line_search(Eigen::VectorXd& y, const IncrementalPotential::Value& start, double slope,
-                         StepReport& report) {
+/// Backtracking to Armijo's condition. Near the minimum the decrease drowns in the rounding of Phi; there the slope
+/// along the direction, which rounding spares, decides (approximate Wolfe condition, Hager and Zhang 2005, section 2).
+bool Newton::line_search(Eigen::VectorXd& y, double slope, double rounding, StepReport& report) {
+  const double start = phi_.value(y, report);
   for (double step = phi_.max_step(y, d_); step > kShortestStep; step *= 0.5) {
     trial_ = y + step * d_;
-    const IncrementalPotential::Value v = phi_.value(trial_, report);
-    if (std::isfinite(v.phi) && v.phi <= start.phi + kArmijo * step * slope + start.rounding) {
+    const double phi = phi_.value(trial_, report);
+    if (!std::isfinite(phi)) continue;
+    bool accept = phi <= start + kArmijo * step * slope;
+    if (!accept && phi <= start + rounding) {
+      phi_.gradient(trial_, trial_gradient_, report);
+      accept = std::abs(trial_gradient_.dot(d_)) <= kFlatter * -slope;
+    }
+    if (accept) {
       y.swap(trial_);
       return true;
     }

@@ -13,6 +13,7 @@ namespace softreel::sim {
 struct NewtonSettings {
   double tolerance = 1e-3;  ///< relative to the motion that the step has to produce
   int max_iterations = 60;
+  double linear_tolerance = 1e-3;  ///< of one iterative linear solve, relative
 };
 
 /// Minimizes Phi. Converged when for every body |g| <= max(tolerance |g0|, rounding), g0 the gradient at the start of
@@ -30,7 +31,7 @@ class Newton {
   void prepare();
 
  private:
-  bool line_search(Eigen::VectorXd& y, const IncrementalPotential::Value& start, double slope, StepReport& report);
+  bool line_search(Eigen::VectorXd& y, double slope, double rounding, StepReport& report);
 
   const Model& model_;
   IncrementalPotential& phi_;
@@ -38,7 +39,7 @@ class Newton {
   std::unique_ptr<LinearSolver> linear_;
   bool analysed_ = false;
   BlockMatrix H_;
-  Eigen::VectorXd g_, d_, trial_;
+  Eigen::VectorXd g_, d_, trial_, trial_gradient_;
 };
 
 }  // namespace softreel::sim

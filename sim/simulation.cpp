@@ -156,7 +156,7 @@ void Simulation::implicit_step(double h, StepReport& report) {
   if (model_.contact) {
     Eigen::VectorXd here = state_.x;
     pins_.place(state_.t + h, here);
-    if (phi_->value(here, report).phi < phi_->value(y, report).phi) y.swap(here);
+    if (phi_->value(here, report) < phi_->value(y, report)) y.swap(here);
   }
   newton_->minimize(y, report);
   if (report.converged) implicit_->finish(y, h, state_);

@@ -1,0 +1,93 @@
+#include "sim/model_builder.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "sim/bending.h"
+#include "sim/body_forces.h"
+#include "sim/membrane.h"
+#include "sim/solid.h"
+#include "sim/stiffness_damping.h"
+
+namespace softreel::sim {
+
+BodyRange ModelBuilder::add_body(const std::string& name, const std::vector<Vec3>& rest,
+                                 const std::vector<double>& masses) {
+  BodyRange body{name, static_cast<int>(masses_.size()), static_cast<int>(rest.size())};
+  masses_.insert(masses_.end(), masses.begin(), masses.end());
+  for (const Vec3& p : rest) x_.insert(x_.end(), p.data(), p.data() + 3);
+  v_.resize(x_.size(), 0.0);
+  model_.bodies.push_back(body);
+  return body;
+}
+
+BodyRange ModelBuilder::add_solid(const std::string& name, const TetMesh& rest, const SolidMaterial& m) {
+  const BodyRange body = add_body(name, rest.vertices, lumped_masses(rest, m.density));
+  model_.potentials.push_back(make_solid(m.model, m.young, m.poisson, rest, body.first));
+  return body;
+}
+
+BodyRange ModelBuilder::add_membrane(const std::string& name, const TriangleMesh& rest, const MembraneMaterial& m) {
+  const BodyRange body = add_body(name, rest.vertices, lumped_masses(rest, m.areal_density));
+  model_.potentials.push_back(make_membrane(m.model, m.young, m.poisson, m.thickness, rest, body.first));
+  if (m.bending > 0) {
+    const bool quadratic =
+        m.bending_model == BendingModel::kQuadratic || (m.bending_model == BendingModel::kAuto && is_flat(rest));
+    model_.potentials.push_back(quadratic ? make_quadratic_bending(rest, m.bending, body.first)
+                                          : make_discrete_shell_bending(rest, m.bending, body.first));
+  }
+  return body;
+}
+
+BodyRange ModelBuilder::add_mass_spring(const std::string& name, const TriangleMesh& rest, std::vector<Spring> springs,
+                                        double areal_density, double spring_damping) {
+  const BodyRange body = add_body(name, rest.vertices, lumped_masses(rest, areal_density));
+  for (Spring& s : springs) {
+    s.a += body.first;
+    s.b += body.first;
+  }
+  model_.potentials.push_back(make_springs(springs));
+  if (spring_damping > 0) model_.dissipations.push_back(make_spring_damping(springs, spring_damping));
+  return body;
+}
+
+void ModelBuilder::set_velocity(const BodyRange& body, const Vec3& velocity, const Vec3& spin) {
+  Vec3 centre = Vec3::Zero();
+  double mass = 0;
+  const auto position = [&](int i) { return Eigen::Map<const Vec3>(x_.data() + 3 * static_cast<size_t>(i)); };
+  for (int i = body.first; i < body.first + body.count; ++i) {
+    mass += masses_[static_cast<size_t>(i)];
+    centre += masses_[static_cast<size_t>(i)] * position(i);
+  }
+  centre /= mass;
+  for (int i = body.first; i < body.first + body.count; ++i)
+    Eigen::Map<Vec3>(v_.data() + 3 * static_cast<size_t>(i)) += velocity + spin.cross(position(i) - centre);
+}
+
+Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vector<Collider> colliders,
+                           const ContactSettings& settings) {
+  Model& m = model_;
+  m.masses = Eigen::Map<const Eigen::VectorXd>(masses_.data(), static_cast<Eigen::Index>(masses_.size()));
+  m.x0 = Eigen::Map<const Eigen::VectorXd>(x_.data(), static_cast<Eigen::Index>(x_.size()));
+  m.v0 = Eigen::Map<const Eigen::VectorXd>(v_.data(), static_cast<Eigen::Index>(v_.size()));
+  if (damping.beta > 0) {
+    std::vector<const EnergyTerm*> elastic;
+    for (const auto& term : m.potentials) elastic.push_back(term.get());
+    for (const EnergyTerm* term : elastic) m.dissipations.push_back(make_stiffness_damping(*term, damping.beta));
+  }
+  if (gravity.squaredNorm() > 0) m.potentials.push_back(make_gravity(m.masses, gravity));
+  if (damping.drag + damping.alpha > 0) m.dissipations.push_back(make_drag(m.masses, damping.drag + damping.alpha));
+  if (!colliders.empty()) {
+    const bool rough =
+        std::any_of(colliders.begin(), colliders.end(), [](const Collider& c) { return c.friction > 0; });
+    auto contact = std::make_unique<ColliderContact>(m.masses, std::move(colliders), settings);
+    m.contact = contact.get();
+    if (rough) m.dissipations.push_back(make_collider_friction(*contact, settings.slip_speed));
+    m.potentials.push_back(std::move(contact));
+  }
+  Model built = std::move(model_);
+  *this = ModelBuilder();
+  return built;
+}
+
+}  // namespace softreel::sim

@@ -1,0 +1,63 @@
+#pragma once
+// Puts a model together, body by body; what is not asked for is not built.
+#include <string>
+#include <vector>
+
+#include "sim/collider_contact.h"
+#include "sim/mesh.h"
+#include "sim/model.h"
+#include "sim/springs.h"
+
+namespace softreel::sim {
+
+struct SolidMaterial {
+  std::string model = "stable-neo-hookean";
+  double young = 1e5;     ///< [Pa] > 0
+  double poisson = 0.4;   ///< in (-1, 0.5)
+  double density = 1000;  ///< [kg/m^3] > 0
+};
+
+enum class BendingModel { kAuto, kQuadratic, kDiscreteShell };  ///< kAuto: quadratic where flat at rest
+
+struct MembraneMaterial {
+  std::string model = "stvk";
+  double young = 1e5;       ///< [Pa] > 0
+  double poisson = 0.3;     ///< in (-1, 0.5)
+  double thickness = 1e-3;  ///< [m] > 0
+  double bending = 0;       ///< flexural rigidity [N m] >= 0; 0 leaves bending out
+  BendingModel bending_model = BendingModel::kAuto;
+  double areal_density = 1;  ///< [kg/m^2] > 0
+};
+
+struct Damping {
+  double drag = 0;   ///< [1/s] >= 0
+  double alpha = 0;  ///< Rayleigh, mass [1/s] >= 0
+  double beta = 0;   ///< Rayleigh, stiffness [s] >= 0
+};
+
+/// Bodies are added where they are at rest (world coordinates, [m]); each call returns the body's range.
+class ModelBuilder {
+ public:
+  BodyRange add_solid(const std::string& name, const TetMesh& rest, const SolidMaterial& material);
+  BodyRange add_membrane(const std::string& name, const TriangleMesh& rest, const MembraneMaterial& material);
+  /// `springs`: vertex indices of `rest`; `spring_damping` [N s/m].
+  BodyRange add_mass_spring(const std::string& name, const TriangleMesh& rest, std::vector<Spring> springs,
+                            double areal_density, double spring_damping);
+
+  /// v += velocity + spin x (x - centre of mass); velocity [m/s], spin [rad/s].
+  void set_velocity(const BodyRange& body, const Vec3& velocity, const Vec3& spin);
+  void add_pin(Pin pin) { model_.pins.push_back(std::move(pin)); }
+
+  /// Adds gravity [m/s^2], damping and contact, as far as they are not zero or empty. The builder is empty afterwards.
+  Model finish(const Vec3& gravity, const Damping& damping, std::vector<Collider> colliders,
+               const ContactSettings& contact);
+
+ private:
+  BodyRange add_body(const std::string& name, const std::vector<Vec3>& rest, const std::vector<double>& masses);
+
+  Model model_;
+  std::vector<double> masses_;
+  std::vector<double> x_, v_;
+};
+
+}  // namespace softreel::sim
