@@ -27,8 +27,8 @@ struct Environment {
   bool sky_shadow = false;  ///< ambient light is blocked by bodies: one more shadow map in each accumulation pass
   Ground ground;
   /// Background in the picture's own (display) linear values: what is asked for is what the file holds.
-  glm::vec3 background_top{0.36f, 0.42f, 0.50f};
-  glm::vec3 background_bottom{0.62f, 0.64f, 0.66f};  ///< same as top: a plain background
+  glm::vec3 background_top{0.40f, 0.45f, 0.52f};
+  glm::vec3 background_bottom{0.56f, 0.56f, 0.56f};  ///< same as top: a plain background
   bool transparent = false;                          ///< leave the background out: alpha 0 where nothing is drawn
   float exposure = 1;                                ///< factor on all radiance before the tone curve, > 0
 };

@@ -16,6 +16,7 @@ namespace softreel::render {
   X(PFNGLBLENDFUNCPROC, BlendFunc)                                       \
   X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)   \
   X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)           \
+  X(PFNGLCLEARNAMEDFRAMEBUFFERUIVPROC, ClearNamedFramebufferuiv)         \
   X(PFNGLCOLORMASKPROC, ColorMask)                                       \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                               \
   X(PFNGLCREATEBUFFERSPROC, CreateBuffers)                               \
@@ -63,6 +64,7 @@ namespace softreel::render {
   X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)           \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                     \
   X(PFNGLSAMPLERPARAMETERFPROC, SamplerParameterf)                       \
+  X(PFNGLSAMPLERPARAMETERFVPROC, SamplerParameterfv)                     \
   X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)                       \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                 \
   X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                         \

@@ -54,7 +54,7 @@ void place_sphere(const PictureSetup& picture, const Light& light, const glm::ve
   const float part = light.radius / std::sqrt(static_cast<float>(picture.passes));
   out.place = glm::vec4(point, 1);
   out.color = glm::vec4(light.intensity * light.color, light.reference_distance * light.reference_distance);
-  out.extra = glm::vec4(part, map, std::max(light.radius, 1e-3f), 0);
+  out.extra = glm::vec4(part, std::max(light.radius, 1e-3f), 0, 0);
   if (map < 0) return;
   const ShadowFrustum frustum = frustum_from_point(point, picture.casters, picture.shadow_map_size, part);
   setup.uniforms.shadows[static_cast<std::size_t>(map)] = frustum.uniforms;
@@ -78,7 +78,7 @@ void place_sun(const PictureSetup& picture, const Light& light, const glm::vec2&
   const float part = tangent / std::sqrt(static_cast<float>(picture.passes));
   out.place = glm::vec4(towards, 0);
   out.color = glm::vec4(light.intensity * light.color, 0);
-  out.extra = glm::vec4(part, map, 0, 0);
+  out.extra = glm::vec4(part, 0, 0, 0);
   place_parallel(picture, towards, part, map, setup);
 }
 
@@ -111,6 +111,9 @@ PassSetup set_up_pass(const PictureSetup& picture, const Environment& environmen
   PassUniforms& uniforms = setup.uniforms;
   setup.shadow_clip_from_world.resize(static_cast<std::size_t>(picture.shadow_maps));
   uniforms.clip_from_world = pass_clip_from_world(picture, sample.pixel);
+  uniforms.world_from_clip = glm::mat4(glm::inverse(glm::dmat4(uniforms.clip_from_world)));
+  uniforms.picture =
+      glm::vec4(2.0f / static_cast<float>(picture.width), 2.0f / static_cast<float>(picture.height), 0, 0);
   uniforms.camera = glm::vec4(picture.camera.position, static_cast<float>(pass % 64));
   uniforms.sky = glm::vec4(environment.sky, 0);
   uniforms.ground_light = glm::vec4(environment.ground_light, 0);
@@ -127,7 +130,7 @@ PassSetup set_up_pass(const PictureSetup& picture, const Environment& environmen
     const glm::vec3 towards = glm::normalize(glm::vec3(sample.sky.x, std::max(height, 0.02f), sample.sky.y));
     // 1/N of the unit disc under the hemisphere, seen as a cone.
     const float part = std::min(1 / std::sqrt(static_cast<float>(picture.passes)), 0.7f);
-    uniforms.sky_direction = glm::vec4(towards, picture.sky_map);
+    uniforms.sky_direction = glm::vec4(towards, 0);
     place_parallel(picture, towards, part / std::sqrt(1 - part * part), picture.sky_map, setup);
   }
   return setup;

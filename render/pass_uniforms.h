@@ -20,17 +20,18 @@ struct LightUniforms {
   glm::vec4 place{0};  ///< position (w = 1), or unit direction towards the light (w = 0), world
   glm::vec4 color{
       0};  ///< rgb: radiance of a white matte surface facing it; w: reference distance squared [m^2], 0 no falloff
-  glm::vec4 extra{
-      0};  ///< x: radius [m] or tangent of the part this pass stands for; y: shadow map, -1 none; z: whole radius
+  glm::vec4 extra{0};  ///< x: radius [m] or tangent of the part this pass stands for; y: whole radius [m]
 };
 
 struct PassUniforms {
   glm::mat4 clip_from_world{1};
+  glm::mat4 world_from_clip{1};
+  glm::vec4 picture{0};        ///< x, y: 2 / size [1/px]
   glm::vec4 camera{0};         ///< xyz position, w: number of the pass
   glm::vec4 sky{0};            ///< rgb
   glm::vec4 ground_light{0};   ///< rgb
   glm::vec4 ground{0};         ///< x, z of its centre, begin and end of the fade [m]
-  glm::vec4 sky_direction{0};  ///< xyz: towards the part of the sky of this pass; w: its shadow map
+  glm::vec4 sky_direction{0};  ///< xyz: towards the part of the sky of this pass
   std::array<LightUniforms, kMaxLights> lights{};
   std::array<ShadowUniforms, kMaxShadowMaps> shadows{};
 };

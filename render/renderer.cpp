@@ -8,13 +8,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "render/film_target.h"
 #include "render/gl_context.h"
 #include "render/gpu_mesh.h"
 #include "render/pass_setup.h"
+#include "render/picture_targets.h"
+#include "render/programs.h"
 #include "render/sampling.h"
 #include "render/shadow_maps.h"
-#include "render/surface_programs.h"
 
 namespace softreel::render {
 
@@ -43,7 +43,8 @@ int shadow_map_size(const RenderOptions& options) {
 
 struct Renderer::State {
   explicit State(const RenderOptions& asked)
-      : options(asked), gl(load_gl_functions()), film(gl, asked.width, asked.height), programs(gl), textures(gl) {
+      : options(asked), gl(load_gl_functions()), targets(gl, asked.width, asked.height), programs(gl), textures(gl) {
+    no_vertices = make_vertex_array(gl);
     pass_buffer = make_buffer(gl, sizeof(PassUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
   }
 
@@ -51,10 +52,11 @@ struct Renderer::State {
   GlContext context;
   GlFunctions gl;
   RenderCounters counters;
-  FilmTarget film;
-  SurfacePrograms programs;
+  PictureTargets targets;
+  Programs programs;
   ColorTextures textures;
   GlBuffer pass_buffer;
+  GlVertexArray no_vertices;
   std::optional<ShadowMaps> shadow_maps;
   std::vector<std::unique_ptr<GpuMesh>> meshes;
   std::unique_ptr<GpuMesh> ground;
@@ -98,30 +100,34 @@ struct Renderer::State {
     ++counters.shadow_maps;
   }
 
-  SurfaceFeatures features_of(const PictureSetup& picture) const {
-    SurfaceFeatures features;
+  LightingFeatures features_of(const PictureSetup& picture, const std::vector<const GpuMesh*>& meshes_drawn,
+                               const Environment& environment) const {
+    LightingFeatures features;
     features.lights = static_cast<int>(picture.lights.size());
-    features.shadows =
-        std::any_of(picture.shadow_map.begin(), picture.shadow_map.end(), [](int map) { return map >= 0; });
+    for (std::size_t light = 0; light < picture.lights.size(); ++light)
+      if (picture.shadow_map[light] >= 0) features.shadow_lights |= 1u << light;
     features.sky_shadow = picture.sky_map >= 0;
-    features.shadow_taps = picture.passes == 1 ? 12 : picture.passes < 8 ? 4 : 2;
+    features.ground = environment.ground.visible;
+    for (const GpuMesh* mesh : meshes_drawn)
+      for (const Look& look : mesh->looks()) features.sheen = features.sheen || look.sheen > 0;
+    // What few passes cannot average they must filter.
+    features.shadow_taps = picture.passes == 1 ? 12 : picture.passes < 8 ? 6 : 3;
     return features;
   }
 
-  void draw_part(const GpuMesh& mesh, const MeshPart& part, const Look& look, SurfaceFeatures features) {
-    features.texture = look.texture != nullptr && mesh.has_uv() && !features.ground;
-    features.sheen = look.sheen > 0;
-    const GLuint program = programs.program(features);
+  void draw_part(const GpuMesh& mesh, const MeshPart& part, const Look& look, float roughness) {
+    const bool texture = look.texture != nullptr && mesh.has_uv() && roughness > 0;
+    const GLuint program = programs.geometry(texture);
     gl.UseProgram(program);
-    if (features.texture) textures.bind(*look.texture);
+    if (texture) textures.bind(*look.texture);
     const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(mesh.world_from_mesh)));
     const glm::vec4 front(look.color, look.metallic);
-    const glm::vec4 back(look.back_color.value_or(look.color), look.roughness);
+    const glm::vec4 back(look.back_color.value_or(look.color), roughness);
     gl.ProgramUniformMatrix4fv(program, kWorldFromMeshUniform, 1, GL_FALSE, glm::value_ptr(mesh.world_from_mesh));
     gl.ProgramUniformMatrix3fv(program, kNormalMatrixUniform, 1, GL_FALSE, glm::value_ptr(normal_matrix));
     gl.ProgramUniform4fv(program, kFrontColorUniform, 1, glm::value_ptr(front));
     gl.ProgramUniform4fv(program, kBackColorUniform, 1, glm::value_ptr(back));
-    if (features.sheen) gl.ProgramUniform1f(program, kSheenUniform, look.sheen);
+    gl.ProgramUniform1f(program, kSheenUniform, look.sheen);
     if (look.two_sided)
       gl.Disable(GL_CULL_FACE);
     else
@@ -133,37 +139,44 @@ struct Renderer::State {
     ++counters.draw_calls;
   }
 
-  void draw_surfaces(const std::vector<const GpuMesh*>& meshes_drawn, const Environment& environment,
-                     const SurfaceFeatures& features) {
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_LESS);
-    gl.Disable(GL_BLEND);
-    gl.CullFace(GL_BACK);
+  void draw_surfaces(const std::vector<const GpuMesh*>& meshes_drawn, const Environment& environment) {
+    // The least roughness that is not taken for the ground's mark.
+    constexpr float kSmoothest = 1.0f / 255;
     for (const GpuMesh* mesh : meshes_drawn)
-      for (const MeshPart& part : mesh->parts()) draw_part(*mesh, part, mesh->look(part.look), features);
+      for (const MeshPart& part : mesh->parts()) {
+        const Look& look = mesh->look(part.look);
+        draw_part(*mesh, part, look, std::clamp(look.roughness, kSmoothest, 1.0f));
+      }
     if (!environment.ground.visible) return;
-    // Last: most of it is hidden by then, and it lets through what lies behind where it fades.
-    gl.Enable(GL_BLEND);
-    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    SurfaceFeatures ground_features = features;
-    ground_features.ground = true;
-    draw_part(*ground, ground->parts()[0], environment.ground.look, ground_features);
+    Look matte;
+    matte.color = environment.ground.look.color;
+    draw_part(*ground, ground->parts()[0], matte, 0);
+  }
+
+  void draw_shadow_maps(const PassSetup& setup, const std::vector<const GpuMesh*>& meshes_drawn) {
+    std::vector<const GpuMesh*> casters;
+    std::copy_if(meshes_drawn.begin(), meshes_drawn.end(), std::back_inserter(casters),
+                 [](const GpuMesh* mesh) { return mesh->casts_shadow; });
+    for (std::size_t map = 0; map < setup.shadow_clip_from_world.size(); ++map)
+      shadow_maps->draw(static_cast<int>(map), setup.shadow_clip_from_world[map], casters, counters);
+    if (!setup.shadow_clip_from_world.empty()) shadow_maps->bind();
   }
 
   void draw_pass(const PictureSetup& picture, const Environment& environment, const PassSample& sample, int pass) {
     const PassSetup setup = set_up_pass(picture, environment, sample, pass);
     const std::vector<const GpuMesh*> meshes_drawn = drawn();
-    std::vector<const GpuMesh*> casters;
-    std::copy_if(meshes_drawn.begin(), meshes_drawn.end(), std::back_inserter(casters),
-                 [](const GpuMesh* mesh) { return mesh->casts_shadow; });
-    for (int map = 0; map < picture.shadow_maps; ++map)
-      shadow_maps->draw(map, setup.shadow_clip_from_world[static_cast<std::size_t>(map)], casters, counters);
+    draw_shadow_maps(setup, meshes_drawn);
 
     gl.NamedBufferSubData(*pass_buffer, 0, sizeof(PassUniforms), &setup.uniforms);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, kPassBinding, *pass_buffer);
-    film.begin_pass();
-    if (picture.shadow_maps > 0) shadow_maps->bind();
-    draw_surfaces(meshes_drawn, environment, features_of(picture));
+    targets.begin_geometry();
+    draw_surfaces(meshes_drawn, environment);
+
+    targets.begin_lighting(pass, picture.passes, counters);
+    gl.UseProgram(programs.lighting(features_of(picture, meshes_drawn, environment)));
+    gl.BindVertexArray(*no_vertices);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    ++counters.draw_calls;
     ++counters.passes;
   }
 
@@ -235,11 +248,9 @@ FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> 
   const PictureSetup picture = s.set_up(camera, lights, environment);
   s.prepare_shadow_maps(picture.shadow_maps);
   const std::vector<PassSample> samples = pass_samples(picture.passes, picture.lights.size(), s.options.seed);
-  for (int pass = 0; pass < picture.passes; ++pass) {
+  for (int pass = 0; pass < picture.passes; ++pass)
     s.draw_pass(picture, environment, samples[static_cast<std::size_t>(pass)], pass);
-    if (picture.passes > 1) s.film.accumulate(pass == 0, s.counters);
-  }
-  return s.film.read(picture.passes);
+  return s.targets.read(picture.passes);
 }
 
 Image Renderer::render(const Camera& camera, std::span<const Light> lights, const Environment& environment) {

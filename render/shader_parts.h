@@ -1,11 +1,12 @@
 #pragma once
-// The GLSL pieces of a surface program, each in a file named after it.
+// The GLSL pieces of the programs, each in a file named after it.
 
 namespace softreel::render {
 
 extern const char* const kPassBlock;     ///< shader_pass_block.cpp: the uniform block
 extern const char* const kReflectance;   ///< shader_reflectance.cpp: microfacet model, sky
 extern const char* const kShadowLookup;  ///< shader_shadow.cpp: soft shadow of one part of a light
-extern const char* const kSurfaceMain;   ///< shader_surface.cpp: puts them together
+extern const char* const kGeometryMain;  ///< shader_geometry.cpp: notes down the nearest surface
+extern const char* const kLightingMain;  ///< shader_lighting.cpp: puts the pieces together
 
 }  // namespace softreel::render

@@ -8,6 +8,8 @@ struct LightData { vec4 place; vec4 color; vec4 extra; };
 struct ShadowData { mat4 map_from_world; mat4 plane_from_world; vec4 filter_size; vec4 depth; };
 layout(std140, binding = 0) uniform PassBlock {
   mat4 clip_from_world;
+  mat4 world_from_clip;
+  vec4 picture;
   vec4 camera;
   vec4 sky;
   vec4 ground_light;

@@ -20,6 +20,7 @@ struct Surface {
   vec3 albedo_specular;  // of the mirroring part under uniform light from everywhere, with multiple scattering
   vec3 gain;        // multiple scattering
   float sheen;
+  bool matte;       // the ground
 };
 
 // Split-sum factors of F0 and F90: B. Karis, "Physically Based Shading on Mobile", 2014 (a fit to the table of his SIGGRAPH 2013 course).

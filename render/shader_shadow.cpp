@@ -27,6 +27,8 @@ float pixel_turn() {
 // against the one before.
 const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
+const float kWidest = 0.12;  // blur, in parts of the map
+
 // 0 in full shadow, 1 in full light. `normal`: of the surface as it is, unit, towards the light.
 float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   ShadowData s = pass.shadows[map];
@@ -37,7 +39,8 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   at = s.map_from_world * vec4(lifted, 1);
   vec3 p = at.xyz / at.w;
   // llvmpipe runs both sides of an if, but leaves a loop when nobody is in it any more: what need not be done is a loop of no turns.
-  bool inside = at.w > 0 && all(greaterThan(p.xy, vec2(0))) && all(lessThan(p.xy, vec2(1))) && p.z > 0 && n_dot_l > 0;
+  // Beside the map, as far as a penumbra can reach, there is no caster but there may be half shadow.
+  bool inside = at.w > 0 && all(lessThan(abs(p.xy - 0.5), vec2(0.5 + kWidest))) && p.z > 0 && n_dot_l > 0;
   int taps = inside ? SHADOW_TAPS : 0;
 
   vec4 plane = s.plane_from_world * vec4(normal, -dot(normal, lifted));
@@ -51,7 +54,7 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
 
   float here = linear_depth(s.depth, p.z);
   float reach = s.filter_size.w * (perspective ? max(1 / s.depth.x - 1 / here, 0) : max(here - s.depth.x, 0));
-  vec2 search = min(reach * s.filter_size.xy, vec2(0.12));
+  vec2 search = min(reach * s.filter_size.xy, vec2(kWidest));
   // A small light, or many passes: its hard shadow, smoothed over a texel, is enough.
   search = max(search, 1.2 * texel_uv);
 
@@ -73,7 +76,7 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   taps = blockers > 0 && (SHADOW_TAPS < 8 || blockers < taps) ? taps : 0;
   blocker = linear_depth(s.depth, blocker / max(blockers, 1));
   float width = s.filter_size.w * (perspective ? max(1 / blocker - 1 / here, 0) : max(here - blocker, 0));
-  vec2 radius = clamp(width * s.filter_size.xy, 1.2 * texel_uv, vec2(0.12));
+  vec2 radius = clamp(width * s.filter_size.xy, 1.2 * texel_uv, vec2(kWidest));
   direction = first_direction;
   float light = 0;
   for (int i = 0; i < taps; ++i) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "render/pass_uniforms.h"
 #include "render/shader_parts.h"
 
@@ -13,7 +15,19 @@ std::string header() {
   return fmt::format("#version 450 core\n#define MAX_LIGHTS {}\n#define MAX_SHADOWS {}\n", kMaxLights, kMaxShadowMaps);
 }
 
-constexpr const char* kSurfaceVertex = R"(
+/// One call per light with constant indices: llvmpipe reads a uniform array at a computed index lane by lane, which
+/// costs more than the light itself.
+std::string add_lights(const LightingFeatures& features) {
+  std::string calls;
+  int map = 0;
+  for (int light = 0; light < features.lights; ++light) {
+    const bool shadow = ((features.shadow_lights >> light) & 1u) != 0;
+    calls += fmt::format("radiance += lit_by(s, facet, pass.lights[{}], {}); ", light, shadow ? map++ : -1);
+  }
+  return calls;
+}
+
+constexpr const char* kGeometryVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
@@ -37,38 +51,34 @@ layout(location = 0) uniform mat4 clip_from_mesh;
 void main() { gl_Position = clip_from_mesh * vec4(position, 1); }
 )";
 
-constexpr const char* kCopyVertex = R"(
+constexpr const char* kFullTargetVertex = R"(
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }
-)";
-
-constexpr const char* kCopyFragment = R"(
-layout(binding = 0) uniform sampler2D source;
-layout(location = 0) out vec4 result;
-void main() { result = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }
 )";
 
 }  // namespace
 
-std::string surface_vertex_source() { return header() + kPassBlock + kSurfaceVertex; }
+std::string geometry_vertex_source() { return header() + kPassBlock + kGeometryVertex; }
 
-std::string surface_fragment_source(const SurfaceFeatures& features) {
+std::string geometry_fragment_source(bool texture) {
+  return header() + (texture ? "#define TEXTURE\n" : "") + kGeometryMain;
+}
+
+std::string lighting_fragment_source(const LightingFeatures& features) {
   std::string source = header();
-  source += fmt::format("#define LIGHTS {}\n#define SHADOW_TAPS {}\n", features.lights, features.shadow_taps);
+  source += fmt::format("#define SHADOW_TAPS {}\n#define ADD_LIGHTS {}\n", features.shadow_taps, add_lights(features));
   const auto define = [&](bool wanted, const char* name) {
     if (wanted) source += fmt::format("#define {}\n", name);
   };
-  define(features.shadows, "SHADOWS");
-  define(features.shadows || features.sky_shadow, "SHADOW_MAPS");
-  define(features.sky_shadow, "SKY_SHADOW");
-  define(features.texture, "TEXTURE");
+  define(features.shadow_lights != 0, "SHADOWS");
+  define(features.shadow_lights != 0 || features.sky_shadow, "SHADOW_MAPS");
+  if (features.sky_shadow) source += fmt::format("#define SKY_SHADOW {}\n", std::popcount(features.shadow_lights));
   define(features.sheen, "SHEEN");
   define(features.ground, "GROUND");
-  return source + kPassBlock + kReflectance + kShadowLookup + kSurfaceMain;
+  return source + kPassBlock + kReflectance + kShadowLookup + kLightingMain;
 }
 
 std::string shadow_vertex_source() { return header() + kShadowVertex; }
 std::string shadow_fragment_source() { return header() + "void main() {}\n"; }
-std::string copy_vertex_source() { return header() + kCopyVertex; }
-std::string copy_fragment_source() { return header() + kCopyFragment; }
+std::string full_target_vertex_source() { return header() + kFullTargetVertex; }
 
 }  // namespace softreel::render

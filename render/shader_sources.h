@@ -4,26 +4,25 @@
 
 namespace softreel::render {
 
-/// What a surface program contains.
-struct SurfaceFeatures {
-  int lights = 0;           ///< in the uniform block
-  bool shadows = false;     ///< some of them have a shadow map
-  bool sky_shadow = false;  ///< ambient light has one
-  bool texture = false;
+/// What a lighting program contains.
+struct LightingFeatures {
+  int lights = 0;              ///< in the uniform block
+  unsigned shadow_lights = 0;  ///< bit per light: it has a shadow map; the maps are numbered in the lights' order
+  bool sky_shadow = false;     ///< ambient light has one, after the lights' maps
   bool sheen = false;
-  bool ground = false;  ///< the ground plane: fades with distance
-  int shadow_taps = 16;
-  auto operator<=>(const SurfaceFeatures&) const = default;
+  bool ground = false;   ///< the ground plane is there: fades with distance
+  int shadow_taps = 12;  ///< map readings for the search of blockers, and again for the penumbra
+  auto operator<=>(const LightingFeatures&) const = default;
 };
 
-std::string surface_vertex_source();
-std::string surface_fragment_source(const SurfaceFeatures& features);
+std::string geometry_vertex_source();
+std::string geometry_fragment_source(bool texture);
+std::string lighting_fragment_source(const LightingFeatures& features);
 /// Depth only, for shadow maps.
 std::string shadow_vertex_source();
 std::string shadow_fragment_source();
-/// One triangle over the whole target that copies a texture, for accumulation.
-std::string copy_vertex_source();
-std::string copy_fragment_source();
+/// One triangle over the whole target.
+std::string full_target_vertex_source();
 
 /// Attribute and uniform locations shared by the sources and the code that feeds them.
 inline constexpr unsigned kPositionAttribute = 0;
@@ -39,5 +38,7 @@ inline constexpr unsigned kPassBinding = 0;      ///< uniform block
 inline constexpr unsigned kColorTextureUnit = 0;
 inline constexpr unsigned kShadowCompareUnit = 1;  ///< sampler2DArrayShadow
 inline constexpr unsigned kShadowDepthUnit = 2;    ///< the same maps as plain depths
+inline constexpr unsigned kSurfaceUnit = 3;        ///< usampler2D: what the geometry program has noted
+inline constexpr unsigned kDepthUnit = 4;          ///< sampler2D: its depth
 
 }  // namespace softreel::render

@@ -21,10 +21,14 @@ ShadowMaps::ShadowMaps(const GlFunctions& gl, int size, int layers)
     check_framebuffer(gl, framebuffer, "a shadow map");
     framebuffers_.push_back(std::move(framebuffer));
   }
-  compare_ = make_sampler(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
+  // Beside the map there is nothing in the way of the light.
+  const glm::vec4 farthest(1);
+  compare_ = make_sampler(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_BORDER);
+  gl.SamplerParameterfv(*compare_, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(farthest));
   gl.SamplerParameteri(*compare_, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   gl.SamplerParameteri(*compare_, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  plain_ = make_sampler(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+  plain_ = make_sampler(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_BORDER);
+  gl.SamplerParameterfv(*plain_, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(farthest));
   check_gl(gl, "set up shadow maps");
 }
 

@@ -1,4 +1,4 @@
-#include "render/surface_programs.h"
+#include "render/programs.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,11 +11,18 @@ constexpr GLenum kMaxAnisotropy = 0x84FE;  // GL_TEXTURE_MAX_ANISOTROPY, core si
 
 }  // namespace
 
-GLuint SurfacePrograms::program(const SurfaceFeatures& features) {
-  const auto place = programs_.find(features);
-  if (place != programs_.end()) return *place->second;
-  return *programs_.emplace(features, GlProgram(gl_, surface_vertex_source(), surface_fragment_source(features)))
-              .first->second;
+GLuint Programs::geometry(bool texture) {
+  const auto place = geometry_.find(texture);
+  if (place != geometry_.end()) return *place->second;
+  GlProgram program(gl_, geometry_vertex_source(), geometry_fragment_source(texture));
+  return *geometry_.emplace(texture, std::move(program)).first->second;
+}
+
+GLuint Programs::lighting(const LightingFeatures& features) {
+  const auto place = lighting_.find(features);
+  if (place != lighting_.end()) return *place->second;
+  GlProgram program(gl_, full_target_vertex_source(), lighting_fragment_source(features));
+  return *lighting_.emplace(features, std::move(program)).first->second;
 }
 
 void ColorTextures::add(const Image& image, RenderCounters& counters) {

@@ -9,14 +9,16 @@
 
 namespace softreel::render {
 
-class SurfacePrograms {
+class Programs {
  public:
-  explicit SurfacePrograms(const GlFunctions& gl) : gl_(gl) {}
-  GLuint program(const SurfaceFeatures& features);
+  explicit Programs(const GlFunctions& gl) : gl_(gl) {}
+  GLuint geometry(bool texture);
+  GLuint lighting(const LightingFeatures& features);
 
  private:
   const GlFunctions& gl_;
-  std::map<SurfaceFeatures, GlProgram> programs_;
+  std::map<bool, GlProgram> geometry_;
+  std::map<LightingFeatures, GlProgram> lighting_;
 };
 
 class ColorTextures {

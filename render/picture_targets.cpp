@@ -1,0 +1,75 @@
+#include "render/picture_targets.h"
+
+#include <array>
+
+#include "render/shader_sources.h"
+
+namespace softreel::render {
+
+PictureTargets::PictureTargets(const GlFunctions& gl, int width, int height) : gl_(gl), width_(width), height_(height) {
+  surface_ = make_texture(gl, GL_RGBA32UI, width, height);
+  depth_ = make_texture(gl, GL_DEPTH_COMPONENT32F, width, height);
+  geometry_ = make_framebuffer(gl);
+  gl.NamedFramebufferTexture(*geometry_, GL_COLOR_ATTACHMENT0, *surface_, 0);
+  gl.NamedFramebufferTexture(*geometry_, GL_DEPTH_ATTACHMENT, *depth_, 0);
+  check_framebuffer(gl, geometry_, "a picture of surfaces");
+  color_ = make_texture(gl, GL_RGBA32F, width, height);
+  film_ = make_framebuffer(gl);
+  gl.NamedFramebufferTexture(*film_, GL_COLOR_ATTACHMENT0, *color_, 0);
+  check_framebuffer(gl, film_, "a picture of floats");
+  nearest_ = make_sampler(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+}
+
+void PictureTargets::begin_geometry() {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, *geometry_);
+  gl_.Viewport(0, 0, width_, height_);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthMask(GL_TRUE);
+  gl_.DepthFunc(GL_LESS);
+  gl_.Disable(GL_BLEND);
+  gl_.CullFace(GL_BACK);
+  constexpr std::array<GLuint, 4> kNothing{};
+  constexpr float kFarthest = 1;
+  gl_.ClearNamedFramebufferuiv(*geometry_, GL_COLOR, 0, kNothing.data());
+  gl_.ClearNamedFramebufferfv(*geometry_, GL_DEPTH, 0, &kFarthest);
+}
+
+void PictureTargets::begin_lighting(int pass, int passes, RenderCounters& counters) {
+  if (passes > 1 && !summed_) {
+    summed_ = true;
+    ++counters.accumulation_buffers;
+  }
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, *film_);
+  gl_.Viewport(0, 0, width_, height_);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Disable(GL_CULL_FACE);
+  // The first pass overwrites: no clearing needed.
+  if (pass == 0) {
+    gl_.Disable(GL_BLEND);
+  } else {
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFunc(GL_ONE, GL_ONE);
+  }
+  gl_.BindTextureUnit(kSurfaceUnit, *surface_);
+  gl_.BindSampler(kSurfaceUnit, *nearest_);
+  gl_.BindTextureUnit(kDepthUnit, *depth_);
+  gl_.BindSampler(kDepthUnit, *nearest_);
+}
+
+FloatImage PictureTargets::read(int passes) {
+  FloatImage film;
+  film.width = width_;
+  film.height = height_;
+  film.rgba.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, *film_);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, film.rgba.data());
+  check_gl(gl_, "draw a picture");
+  if (passes > 1) {
+    const float weight = 1.0f / static_cast<float>(passes);
+    for (glm::vec4& pixel : film.rgba) pixel *= weight;
+  }
+  return film;
+}
+
+}  // namespace softreel::render

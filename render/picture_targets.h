@@ -1,0 +1,37 @@
+#pragma once
+// What a pass is drawn into. First the nearest surface of every pixel is noted down (geometry), then every pixel is lit
+// once (film): with triangles smaller than a few pixels, llvmpipe would otherwise light each pixel many times over, as
+// it shades blocks of 4 x 4.
+#include "render/counters.h"
+#include "render/film.h"
+#include "render/gl_objects.h"
+
+namespace softreel::render {
+
+class PictureTargets {
+ public:
+  PictureTargets(const GlFunctions& gl, int width, int height);
+
+  /// Binds the geometry target and clears it: nothing there.
+  void begin_geometry();
+  /// Binds the film and what `begin_geometry` has noted as textures. With several passes the film is an accumulation
+  /// buffer: every pass is added to it, in order, so that the sum has the same bits every time. `pass`: 0 begins a new
+  /// sum.
+  void begin_lighting(int pass, int passes, RenderCounters& counters);
+  /// The mean of the passes.
+  FloatImage read(int passes);
+
+ private:
+  const GlFunctions& gl_;
+  int width_;
+  int height_;
+  bool summed_ = false;
+  GlTexture surface_;  ///< four packed words per pixel, see shader_geometry.cpp
+  GlTexture depth_;
+  GlFramebuffer geometry_;
+  GlTexture color_;
+  GlFramebuffer film_;
+  GlSampler nearest_;
+};
+
+}  // namespace softreel::render
