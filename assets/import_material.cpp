@@ -30,8 +30,14 @@ std::optional<std::array<double, 3>> color(const aiMaterial& material, const cha
                                std::clamp<double>(c.b, 0, 1)};
 }
 
-/// assimp's 0.6, as it comes back.
-std::array<double, 3> grey() { return {0.6f, 0.6f, 0.6f}; }
+/// assimp gives the grey 0.6 and no texture to what has no material, or one whose MTL is missing.
+bool made_up(const aiMaterial& material) {
+  aiString texture;
+  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+    if (material.GetTexture(type, 0, &texture) == AI_SUCCESS) return false;
+  }
+  return color(material, AI_MATKEY_COLOR_DIFFUSE) == std::array<double, 3>{0.6f, 0.6f, 0.6f};
+}
 
 /// A Phong exponent as roughness: alpha^2 = 2 / (exponent + 2) (Walter et al., "Microfacet models for refraction",
 /// 2007, section 5.2), roughness = sqrt(alpha). Only for highlights that are there.
@@ -83,14 +89,7 @@ SurfacePart import_material(const aiScene& scene, const aiMesh& mesh, const std:
   const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
   aiString name;
   material.Get(AI_MATKEY_NAME, name);
-  // assimp makes up a grey material for a file that has none; OFF and STL have none at all.
-  if (name.length == 0 || name == aiString(AI_DEFAULT_MATERIAL_NAME)) {
-    const auto made_up = color(material, AI_MATKEY_COLOR_DIFFUSE);
-    aiString texture;
-    const bool plain = material.GetTexture(aiTextureType_DIFFUSE, 0, &texture) != AI_SUCCESS &&
-                       material.GetTexture(aiTextureType_BASE_COLOR, 0, &texture) != AI_SUCCESS;
-    if (plain && (!made_up || *made_up == grey())) return part;
-  }
+  if (made_up(material)) return part;
   if (name.length > 0) part.name = name.C_Str();
   part.base_color = color(material, AI_MATKEY_BASE_COLOR);
   if (!part.base_color) part.base_color = color(material, AI_MATKEY_COLOR_DIFFUSE);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -41,6 +42,11 @@ std::vector<Placed> place_meshes(const aiScene& scene) {
     }
   }
   return placed;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
@@ -96,7 +102,10 @@ RawSurface convert(const aiScene& scene, const std::filesystem::path& file, std:
   RawSurface raw;
   const std::vector<Placed> placed = place_meshes(scene);
   std::size_t faces = 0, vertices = 0;
-  bool uv = false, normals = file.extension() != ".stl" && file.extension() != ".STL";
+  // STL says nothing of smooth surfaces and colours, OFF nothing of colours: what assimp makes up is left out.
+  const std::string format = lower(file.extension().string());
+  const bool colorless = format == ".stl" || format == ".off";
+  bool uv = false, normals = format != ".stl";
   for (const Placed& p : placed) {
     const aiMesh& mesh = *scene.mMeshes[p.mesh];
     faces += mesh.mNumFaces;
@@ -111,7 +120,8 @@ RawSurface convert(const aiScene& scene, const std::filesystem::path& file, std:
   for (const Placed& p : placed) {
     const aiMesh& mesh = *scene.mMeshes[p.mesh];
     if (!mesh.mVertices) continue;
-    SurfacePart part = import_material(scene, mesh, file.parent_path(), raw.missing_textures);
+    SurfacePart part;
+    if (!colorless) part = import_material(scene, mesh, file.parent_path(), raw.missing_textures);
     part.first_triangle = static_cast<int>(raw.triangles.size());
     const std::size_t first_vertex = raw.positions.size();
     const Eigen::Matrix4d transform = matrix(p.transform);

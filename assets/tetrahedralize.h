@@ -12,8 +12,8 @@ namespace softreel::assets {
 struct TetrahedralizeOptions {
   double quality =
       1.4;  ///< largest ratio of circumradius to shortest edge, >= 1.1; surface triangles are kept as they are
-  double max_volume = 0;       ///< largest tetrahedron [m^3], 0: no limit
-  double seconds = 300;        ///< time limit, > 0
+  double max_volume = 0;  ///< largest tetrahedron [m^3], 0: no limit; beside coarse surface triangles some stay larger
+  double seconds = 300;   ///< time limit, > 0
   std::function<void()> poll;  ///< called some 50 times a second while waiting; what it throws stops the work
 };
 
