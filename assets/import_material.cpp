@@ -30,13 +30,18 @@ std::optional<std::array<double, 3>> color(const aiMaterial& material, const cha
                                std::clamp<double>(c.b, 0, 1)};
 }
 
-/// assimp gives the grey 0.6 and no texture to what has no material, or one whose MTL is missing.
+/// assimp gives a grey and no texture to what has no material, and the grey 0.6 to one whose MTL is missing.
 bool made_up(const aiMaterial& material) {
   aiString texture;
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
     if (material.GetTexture(type, 0, &texture) == AI_SUCCESS) return false;
   }
-  return color(material, AI_MATKEY_COLOR_DIFFUSE) == std::array<double, 3>{0.6f, 0.6f, 0.6f};
+  const auto diffuse = color(material, AI_MATKEY_COLOR_DIFFUSE);
+  if (!diffuse) return false;
+  aiString name;
+  const bool unnamed = material.Get(AI_MATKEY_NAME, name) != AI_SUCCESS || name == aiString(AI_DEFAULT_MATERIAL_NAME);
+  const bool grey = (*diffuse)[0] == (*diffuse)[1] && (*diffuse)[1] == (*diffuse)[2];
+  return grey && (unnamed || (*diffuse)[0] == 0.6f);
 }
 
 /// A Phong exponent as roughness: alpha^2 = 2 / (exponent + 2) (Walter et al., "Microfacet models for refraction",

@@ -72,7 +72,12 @@ ImportedSurface import_surface(const std::filesystem::path& file, const MeshOpti
                     fmt::format("cannot be imported: assimp {}; the file is probably broken, export it again",
                                 result.how_it_ended(limits.seconds)));
   }
-  RawSurface raw = read_raw(result.output);
+  RawSurface raw;
+  try {
+    raw = read_raw(result.output);
+  } catch (const BrokenBlob&) {
+    raw.error = "cannot be imported: assimp's answer is broken; export the file again";
+  }
   if (!raw.error.empty()) throw UserError(ErrorKind::kInput, file.string(), raw.error);
   return build_surface(std::move(raw), file.string(), options);
 }

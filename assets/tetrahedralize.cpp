@@ -66,7 +66,12 @@ TetgenReply run_tetgen(const sim::TriangleMesh& surface, const std::string& name
                              result.how_it_ended(options.seconds), surface.triangles.size(),
                              slow ? "raise max_volume or simplify the mesh" : "simplify or remesh it"));
   }
-  TetgenReply reply = read_reply(result.output);
+  TetgenReply reply;
+  try {
+    reply = read_reply(result.output);
+  } catch (const BrokenBlob&) {
+    return {};  // no tetrahedra: refused as such
+  }
   for (sim::Vec3& p : reply.vertices) p /= scale;
   return reply;
 }
