@@ -27,7 +27,7 @@ enum class LinearSolver { kAuto, kCholesky, kCg };
 enum class SolidModel { kStableNeoHookean, kCorotatedVolume };
 enum class MembraneModel { kStvk, kStableNeoHookean };
 enum class ClothModel { kMembrane, kMassSpring };
-enum class BendingModel { kQuadratic, kDiscreteShell };
+enum class BendingModel { kAuto, kQuadratic, kDiscreteShell };  ///< kAuto: quadratic where flat at rest
 enum class TetrahedralizeMode { kConform };
 enum class UpAxis { kX, kY, kZ };
 enum class ColliderShape { kPlane, kSphere, kBox, kCapsule };
@@ -136,11 +136,12 @@ struct ClothMaterial {
   double bending = 1e-5;    ///< bending stiffness [N m]
 };
 
-/// Stiffness of the springs of a mass-spring cloth [N/m]; absent: derived from the material (van Gelder 1998).
+/// Stiffness of the springs of a mass-spring cloth [N/m].
 struct Springs {
-  std::optional<double> structural;  ///< along the edges of the mesh
-  std::optional<double> shear;       ///< along the diagonals
-  std::optional<double> bend;        ///< to every second neighbour
+  std::optional<double> structural;  ///< along the edges; absent: of every edge from the material (van Gelder 1998)
+  std::optional<double> shear;       ///< along the diagonals of a grid's cells; absent: half of `structural`
+  std::optional<double> bend;        ///< to every second neighbour; absent: a tenth of `structural`, or of young times
+                                     ///< thickness
 };
 
 /// What soft bodies and cloths have in common.
@@ -165,7 +166,7 @@ struct SoftBody : Body {
 struct Cloth : Body {
   std::optional<Grid> grid;  ///< in the xz plane, centred; exactly one of `grid` and `mesh.path` is given
   ClothModel model = ClothModel::kMembrane;
-  BendingModel bending_model = BendingModel::kQuadratic;  ///< of a membrane
+  BendingModel bending_model = BendingModel::kAuto;  ///< of a membrane
   ClothMaterial material;
   Springs springs;            ///< of a mass-spring cloth
   double spring_damping = 0;  ///< of a mass-spring cloth, along each spring [N s/m]

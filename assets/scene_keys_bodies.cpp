@@ -110,8 +110,8 @@ void walk(KeyVisitor& v, ClothMaterial& m) {
 void walk(KeyVisitor& v, Springs& s) {
   v.key({"structural", kPhysics, "N/m", at_least(0, 1e12), "along the edges; left out, from the material"},
         &s.structural);
-  v.key({"shear", kPhysics, "N/m", at_least(0, 1e12), "along the diagonals; left out, from the material"}, &s.shear);
-  v.key({"bend", kPhysics, "N/m", at_least(0, 1e12), "to every second neighbour; left out, from the material"},
+  v.key({"shear", kPhysics, "N/m", at_least(0, 1e12), "along the diagonals; left out, half of structural"}, &s.shear);
+  v.key({"bend", kPhysics, "N/m", at_least(0, 1e12), "to every second neighbour; left out, a tenth of structural"},
         &s.bend);
 }
 
@@ -134,7 +134,11 @@ void walk(KeyVisitor& v, Cloth& c) {
   walk_mesh(v, c.mesh);
   v.key({"model", kPhysics, "", {}, "finite elements, or masses and springs"}, choice(c.model));
   v.section({"material", "a preset's name, or figures", {"preset"}}, keys_of(c.material));
-  v.key({"bending_model", kPhysics, "", {}, "of a membrane; quadratic is for sheets that are flat at rest"},
+  v.key({"bending_model",
+         kPhysics,
+         "",
+         {},
+         "of a membrane; quadratic is for sheets that are flat at rest, auto takes it there"},
         choice(c.bending_model));
   v.section({"springs", "stiffness of a mass-spring cloth"}, keys_of(c.springs));
   v.key({"spring_damping", kPhysics, "N s/m", at_least(0, 1e9), "along each spring of a mass-spring cloth"},

@@ -106,6 +106,8 @@ void check(KeyVisitor& v, const Cloth& cloth) {
   const bool springs = cloth.model == ClothModel::kMassSpring;
   only_for(v, springs, {"springs", "spring_damping"}, "is for model = \"mass-spring\"");
   only_for(v, !springs, {"bending_model", "material.model"}, "is for model = \"membrane\"");
+  only_for(v, cloth.springs.structural.has_value(), {"springs.shear"},
+           "goes with springs.structural, which is missing");
   only_for(v, !springs, {"material.bending"}, "is for model = \"membrane\"; masses and springs have springs.bend");
 }
 

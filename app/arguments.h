@@ -1,0 +1,73 @@
+#pragma once
+// What the command line says, one struct for each command.
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace softreel::app {
+
+struct CommonArguments {
+  int threads = 0;  ///< 0: as many as the machine has
+  bool quiet = false;
+};
+
+/// render and simulate.
+struct ClipArguments : CommonArguments {
+  std::string scene;
+  std::string output;  ///< folder; empty: out/NAME of the scene
+  std::string frames;
+  std::vector<std::string> overrides;  ///< key=value
+  std::string video;                   ///< render only
+  std::string stats;                   ///< JSON file
+  std::string export_format;           ///< simulate only: ply, vtu, pc2
+};
+
+struct TurntableArguments : CommonArguments {
+  std::string mesh;
+  std::string output;  ///< folder; empty: out/NAME-turntable
+  std::string video;
+  std::vector<int> size = {1280, 720};
+  int count = 36;
+  int samples = 16;
+  double fps = 30;
+  std::string up = "y";
+  std::string color;
+};
+
+struct CompareArguments : CommonArguments {
+  std::string reference, actual;
+  std::string difference;  ///< file or folder for difference images; empty: none
+  std::string tolerance = "driver";
+};
+
+struct CheckArguments : CommonArguments {
+  std::string scene;
+  std::vector<std::string> overrides;
+  bool list = false;
+};
+
+struct TetrahedralizeArguments : CommonArguments {
+  std::string mesh, output;
+  double quality = 1.4, max_volume = 0, time_limit = 300, unit = 1;
+  std::optional<double> size;
+  std::string up = "y";
+};
+
+// Each returns an exit code, or throws UserError, RenderError, Interrupted.
+int run_render(const ClipArguments& arguments);
+int run_simulate(const ClipArguments& arguments);
+int run_turntable(const TurntableArguments& arguments);
+int run_compare(const CompareArguments& arguments);
+int run_check(const CheckArguments& arguments);
+int run_tetrahedralize(const TetrahedralizeArguments& arguments);
+
+/// Program and libraries with their versions, for --version.
+std::string version_text();
+
+/// Our own version, as it stands in the pictures.
+std::string version();
+
+/// The exact words of the command line into one run. `argv` as in main.
+int run_command_line(int argc, char** argv);
+
+}  // namespace softreel::app

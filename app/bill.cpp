@@ -1,0 +1,57 @@
+#include "app/bill.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "assets/scene_names.h"
+#include "assets/tet_file.h"
+#include "sim/simulation.h"
+
+namespace softreel::app {
+
+using namespace assets;
+
+std::vector<BillItem> bill_of(const Scene& s) {
+  std::vector<BillItem> bill;
+  const auto add = [&](const char* feature, bool needed, const std::string& if_needed, const std::string& if_not) {
+    bill.push_back({feature, needed, needed ? if_needed : if_not});
+  };
+  const auto count = [](const auto& list, const auto& is) { return std::count_if(list.begin(), list.end(), is); };
+
+  const auto surfaces =
+      count(s.soft, [](const SoftBody& b) { return !b.mesh.path.empty() && !is_tet_file(b.mesh.path); });
+  add("tetrahedralization (TetGen)", surfaces > 0, fmt::format("{} soft bodies are surfaces", surfaces),
+      s.soft.empty() ? "there is no soft body" : "every soft body comes as tetrahedra");
+  add("tetrahedral solids", !s.soft.empty(), fmt::format("{} soft bodies", s.soft.size()), "there is no soft body");
+  const auto membranes = count(s.cloth, [](const Cloth& c) { return c.model == ClothModel::kMembrane; });
+  add("membranes", membranes > 0, fmt::format("{} cloths", membranes), "no cloth is a membrane");
+  const auto bending =
+      count(s.cloth, [](const Cloth& c) { return c.model == ClothModel::kMembrane && c.material.bending > 0; });
+  add("bending", bending > 0, fmt::format("{} membranes have a bending stiffness", bending),
+      membranes > 0 ? "material.bending is 0" : "no cloth is a membrane");
+  const auto springs = count(s.cloth, [](const Cloth& c) { return c.model == ClothModel::kMassSpring; });
+  add("springs", springs > 0, fmt::format("{} cloths", springs), "no cloth is mass-spring");
+  add("gravity", s.gravity.squaredNorm() > 0, fmt::format("{:.4g} m/s^2", s.gravity.norm()), "gravity is zero");
+  const bool damped = s.damping.drag + s.damping.alpha + s.damping.beta > 0 ||
+                      count(s.cloth, [](const Cloth& c) { return c.spring_damping > 0; }) > 0;
+  add("damping", damped, "[damping] or spring_damping is set", "nothing is damped");
+  const auto pinned = [](const Body& b) { return !b.pins.empty(); };
+  add("pins", count(s.soft, pinned) + count(s.cloth, pinned) > 0, "some vertices are held", "no vertex is held");
+  add("contact with colliders", !s.colliders.empty(), fmt::format("{} colliders", s.colliders.size()),
+      "there is no collider");
+  add("friction", count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0, "some colliders are rough",
+      s.colliders.empty() ? "there is no collider" : "every collider's friction is 0");
+  const std::string integrator(name_of(s.time.integrator));
+  add("Hessians and a linear solver", sim::is_implicit(integrator),
+      fmt::format("{} solves a system in each step (linear = {})", integrator, name_of(s.solver.linear)),
+      fmt::format("{} is explicit", integrator));
+  add("shadow maps", count(s.lights, [](const Light& l) { return l.shadow; }) > 0, "a light casts shadows",
+      "no light casts shadows");
+  add("accumulation buffer", s.render.samples > 1, fmt::format("samples = {}", s.render.samples), "samples = 1");
+  add("textures", count(s.assets, [](const AssetUse& a) { return !a.physics; }) > 0, "a look names a texture",
+      "no look names a texture (mesh files may bring their own)");
+  return bill;
+}
+
+}  // namespace softreel::app

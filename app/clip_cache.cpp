@@ -1,0 +1,76 @@
+#include "app/clip_cache.h"
+
+#include <fmt/format.h>
+
+#include "app/frame_range.h"
+#include "assets/atomic_file.h"
+#include "assets/state_file.h"
+
+namespace softreel::app {
+namespace {
+
+std::vector<double> to_vector(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
+Eigen::VectorXd to_eigen(const std::vector<double>& v) {
+  return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+}
+
+}  // namespace
+
+ClipCache::ClipCache(std::filesystem::path folder, std::string simulation_hash)
+    : folder_(std::move(folder) / ("sim_" + simulation_hash)), hash_(std::move(simulation_hash)) {}
+
+std::filesystem::path ClipCache::file(int frame) const { return folder_ / frame_file_name(frame, "state"); }
+std::string ClipCache::hash_of(int frame) const { return fmt::format("{}/{}", hash_, frame); }
+
+void ClipCache::write(int frame, const CachedFrame& data) const {
+  assets::make_folders(folder_);
+  assets::StateRecord record;
+  record.arrays["x"] = to_vector(data.state.x);
+  record.arrays["v"] = to_vector(data.state.v);
+  record.arrays["memory"] = data.memory;
+  const sim::Energies& e = data.figures.energies;
+  record.scalars = {{"t", data.state.t},
+                    {"energy/kinetic", e.kinetic},
+                    {"energy/elastic", e.elastic},
+                    {"energy/gravity", e.gravity},
+                    {"energy/contact", e.contact},
+                    {"energy/dissipated", e.dissipated},
+                    {"steps", data.figures.steps},
+                    {"newton_iterations", data.figures.newton_iterations},
+                    {"linear_iterations", data.figures.linear_iterations},
+                    {"retried_steps", data.figures.retried_steps}};
+  assets::write_state(file(frame), hash_of(frame), record);
+}
+
+std::optional<CachedFrame> ClipCache::read(int frame, int vertices) const {
+  const std::optional<assets::StateRecord> record = assets::read_state(file(frame), hash_of(frame));
+  if (!record) return std::nullopt;
+  CachedFrame data;
+  try {
+    data.state.x = to_eigen(record->arrays.at("x"));
+    data.state.v = to_eigen(record->arrays.at("v"));
+    data.memory = record->arrays.at("memory");
+    const auto& s = record->scalars;
+    data.state.t = s.at("t");
+    data.figures.energies = {s.at("energy/kinetic"), s.at("energy/elastic"), s.at("energy/gravity"),
+                             s.at("energy/contact"), s.at("energy/dissipated")};
+    data.figures.steps = s.at("steps");
+    data.figures.newton_iterations = s.at("newton_iterations");
+    data.figures.linear_iterations = s.at("linear_iterations");
+    data.figures.retried_steps = s.at("retried_steps");
+  } catch (const std::out_of_range&) {
+    return std::nullopt;  // written by another version
+  }
+  const Eigen::Index size = data.state.x.size();
+  if (data.state.v.size() != size || (vertices >= 0 && size != 3 * static_cast<Eigen::Index>(vertices)))
+    return std::nullopt;
+  return data;
+}
+
+int ClipCache::complete_frames(int last) const {
+  int frame = 0;
+  while (frame < last && read(frame + 1)) ++frame;
+  return frame;
+}
+
+}  // namespace softreel::app

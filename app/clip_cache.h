@@ -1,0 +1,45 @@
+#pragma once
+// The simulated frames of a clip on disk, one file each, from which an interrupted simulation goes on.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/simulation.h"
+#include "sim/state.h"
+
+namespace softreel::app {
+
+/// What a frame tells beside its state: counts and energies since the frame before.
+struct FrameFigures {
+  sim::Energies energies;
+  double steps = 0, newton_iterations = 0, linear_iterations = 0, retried_steps = 0;
+};
+
+struct CachedFrame {
+  sim::State state;
+  std::vector<double> memory;  ///< Simulation::memory
+  FrameFigures figures;
+};
+
+class ClipCache {
+ public:
+  /// Frames live in folder/sim_HASH; nothing is written before the first `write`.
+  ClipCache(std::filesystem::path folder, std::string simulation_hash);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  void write(int frame, const CachedFrame& data) const;
+  /// Nothing if missing, damaged, of another simulation, or not of `vertices` vertices (-1: any).
+  std::optional<CachedFrame> read(int frame, int vertices = -1) const;
+  /// How many frames from 1 on are there and whole, at most `last`.
+  int complete_frames(int last) const;
+
+ private:
+  std::filesystem::path file(int frame) const;
+  std::string hash_of(int frame) const;
+
+  std::filesystem::path folder_;
+  std::string hash_;
+};
+
+}  // namespace softreel::app

@@ -1,0 +1,37 @@
+// softreel check SCENE
+#include <fmt/format.h>
+
+#include "app/arguments.h"
+#include "app/bill.h"
+#include "app/exit_code.h"
+#include "assets/error.h"
+#include "assets/scene_reader.h"
+#include "assets/scene_reference.h"
+#include "sim/linear_solver.h"
+#include "sim/membrane.h"
+#include "sim/simulation.h"
+#include "sim/solid.h"
+
+namespace softreel::app {
+
+int run_check(const CheckArguments& a) {
+  if (a.list) {
+    fmt::print("{}\n{}", assets::scene_choices_text(), assets::scene_reference_markdown());
+    return kDone;
+  }
+  if (a.scene.empty())
+    throw assets::UserError(assets::ErrorKind::kUsage, "check needs a scene file (or --list, for every key there is)");
+  const assets::Scene scene = assets::read_scene(a.scene, a.overrides);
+  assets::check_assets(scene);
+  fmt::print("{}: no mistakes. {} frames at {:g} fps, {} steps of {:.4g} s\n\n", a.scene, scene.time.frames(),
+             scene.time.fps, (scene.time.frames() - 1) * scene.time.substeps, scene.time.step());
+  const std::vector<BillItem> bill = bill_of(scene);
+  for (const bool needed : {true, false}) {
+    fmt::print("{}\n", needed ? "needed" : "left out");
+    for (const BillItem& item : bill)
+      if (item.needed == needed) fmt::print("  {:<30} {}\n", item.feature, item.why);
+  }
+  return kDone;
+}
+
+}  // namespace softreel::app

@@ -1,0 +1,140 @@
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <functional>
+
+#include "app/arguments.h"
+#include "app/exit_code.h"
+
+namespace softreel::app {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  softreel render hello.toml --video hello.mp4
+  softreel render hello.toml --frames 1-48 --set render.samples=4
+  softreel simulate hello.toml --export vtu
+  softreel turntable spot.obj --count 36 --video spin.mp4
+  softreel compare reference/ out/hello/
+  softreel check hello.toml
+  softreel tetrahedralize spot.obj -o spot.msh
+
+Exit codes: 0 done; 1 the answer is no; 2 wrong usage or scene; 3 an input file or a needed program is missing or
+unusable; 4 the simulation failed; 5 output could not be written; 6 a bug of ours; 130 interrupted.)";
+
+void add_common(CLI::App& command, CommonArguments& a) {
+  command.add_option("--threads", a.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  command.add_flag("-q,--quiet", a.quiet, "no progress, no remarks");
+}
+
+void add_clip(CLI::App& command, ClipArguments& a) {
+  command.add_option("scene", a.scene, "scene file (TOML)")->required();
+  command.add_option("-o,--output", a.output, "folder for frames and cache (default: out/NAME of the scene)");
+  command.add_option("--frames", a.frames, "frames, such as 1-48 or 1,5,10-20x2 (default: all)");
+  command.add_option("--set", a.overrides, "override a key of the scene: soft.spot.material.young=1e5")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--stats", a.stats, "write counts, seconds and energies to this JSON file");
+  add_common(command, a);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("One scene file to a rendered clip of cloth and soft bodies, without a display.", "softreel");
+  app.footer(kExamples);
+  app.require_subcommand(1);
+  app.set_version_flag(
+      "--version", [] { return version_text(); }, "print the versions of softreel and its libraries");
+  std::function<int()> run;
+
+  ClipArguments render;
+  auto* command = app.add_subcommand("render", "simulate and render a scene; what is up to date is not done again");
+  add_clip(*command, render);
+  command->add_option("--video", render.video, "also write a video (.mp4, .mov, .mkv) through ffmpeg");
+  command->callback([&] { run = [&] { return run_render(render); }; });
+
+  ClipArguments simulate;
+  command = app.add_subcommand("simulate", "only fill the cache of a scene");
+  add_clip(*command, simulate);
+  command
+      ->add_option("--export", simulate.export_format, "write the moving meshes for Blender (ply, pc2), ParaView (vtu)")
+      ->check(CLI::IsMember({"ply", "vtu", "pc2"}));
+  command->callback([&] { run = [&] { return run_simulate(simulate); }; });
+
+  TurntableArguments turntable;
+  command = app.add_subcommand("turntable", "pictures of a mesh, once around");
+  command->add_option("mesh", turntable.mesh, "surface or tetrahedral mesh")->required();
+  command->add_option("-o,--output", turntable.output, "folder for the frames (default: out/NAME-turntable)");
+  command->add_option("--count", turntable.count, "pictures in one turn")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--size", turntable.size, "width and height [px]")->expected(2)->check(CLI::Range(1, 16384));
+  command->add_option("--samples", turntable.samples, "passes averaged into one picture")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command->add_option("--fps", turntable.fps, "pictures per second of the video")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  command->add_option("--up", turntable.up, "axis of the file that points up")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->capture_default_str();
+  command->add_option("--color", turntable.color, "instead of the file's colours: \"#rrggbb\" or a name");
+  command->add_option("--video", turntable.video, "also write a video (.mp4, .mov, .mkv) through ffmpeg");
+  add_common(*command, turntable);
+  command->callback([&] { run = [&] { return run_turntable(turntable); }; });
+
+  CompareArguments compare;
+  command = app.add_subcommand("compare", "two pictures, or two folders of frames; exit code 1 if they differ");
+  command->add_option("reference", compare.reference, "picture or folder that is right")->required();
+  command->add_option("actual", compare.actual, "picture or folder to judge")->required();
+  command->add_option("-o,--output", compare.difference,
+                      "write difference images there (file for one, folder for many)");
+  command
+      ->add_option("--tolerance", compare.tolerance,
+                   "same: same pixels; driver: at most 3 of 255 levels on at most 0.1 % of the pixels")
+      ->check(CLI::IsMember({"same", "driver"}))
+      ->capture_default_str();
+  add_common(*command, compare);
+  command->callback([&] { run = [&] { return run_compare(compare); }; });
+
+  CheckArguments check;
+  command = app.add_subcommand("check", "validate a scene; print what it needs and what is left out, and why");
+  command->add_option("scene", check.scene, "scene file (TOML)");
+  command->add_option("--set", check.overrides, "override a key of the scene")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_flag("--list", check.list, "print every key and name that a scene can choose");
+  add_common(*command, check);
+  command->callback([&] { run = [&] { return run_check(check); }; });
+
+  TetrahedralizeArguments tets;
+  command = app.add_subcommand("tetrahedralize", "fill a closed surface with tetrahedra");
+  command->add_option("mesh", tets.mesh, "closed surface, or a tetrahedral mesh to convert")->required();
+  command->add_option("-o,--output", tets.output, "file to write: .msh, .mesh, .vtu, .node")->required();
+  command->add_option("--quality", tets.quality, "largest ratio of circumradius to shortest edge")
+      ->check(CLI::Range(1.1, 100.0))
+      ->capture_default_str();
+  command->add_option("--max-volume", tets.max_volume, "largest tetrahedron [m^3]")->check(CLI::PositiveNumber);
+  command->add_option("--time-limit", tets.time_limit, "[s]")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--unit", tets.unit, "metres per unit of the file")->check(CLI::PositiveNumber);
+  command->add_option("--size", tets.size, "scale the longest side to this [m]")->check(CLI::PositiveNumber);
+  command->add_option("--up", tets.up, "axis of the file that points up")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->capture_default_str();
+  add_common(*command, tets);
+  command->callback([&] { run = [&] { return run_tetrahedralize(tets); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);  // --help, --version
+  } catch (const CLI::ParseError& e) {
+    app.exit(e);
+    return kWrongUsage;
+  }
+  return run();
+}
+
+}  // namespace softreel::app

@@ -1,0 +1,96 @@
+#include "app/export_clip.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/interrupt.h"
+#include "assets/atomic_file.h"
+#include "assets/error.h"
+#include "assets/export_pc2.h"
+#include "assets/export_ply.h"
+#include "assets/export_vtu.h"
+
+namespace softreel::app {
+namespace {
+
+using sim::Vec3;
+
+struct ExportBody {
+  std::string name;
+  int first = 0, count = 0;  // vertices of the state
+  int surface_count = 0;     // of them, those that the surface uses come first
+  const std::vector<sim::Triangle>* triangles = nullptr;
+  const std::vector<sim::Tet>* tets = nullptr;
+};
+
+std::vector<ExportBody> bodies_of(const assets::Scene& scene, const Shapes& shapes) {
+  std::vector<ExportBody> bodies;
+  int first = 0;
+  for (size_t i = 0; i < scene.soft.size(); ++i) {
+    const SolidShape& s = shapes.soft[i];
+    const int count = static_cast<int>(s.rest.vertices.size());
+    bodies.push_back(
+        {scene.soft[i].name, first, count, s.drawn.position_count, &s.drawn.surface.welded.triangles, &s.rest.tets});
+    first += count;
+  }
+  for (size_t i = 0; i < scene.cloth.size(); ++i) {
+    const ClothShape& c = shapes.cloth[i];
+    const int count = static_cast<int>(c.rest.vertices.size());
+    bodies.push_back({scene.cloth[i].name, first, count, count, &c.rest.triangles, nullptr});
+    first += count;
+  }
+  return bodies;
+}
+
+std::vector<Vec3> points(const Eigen::VectorXd& stacked, int first, int count) {
+  std::vector<Vec3> result;
+  for (int i = first; i < first + count; ++i) result.emplace_back(stacked.segment<3>(3 * i));
+  return result;
+}
+
+}  // namespace
+
+void export_clip(const assets::Scene& scene, const Shapes& shapes, const ClipCache& cache,
+                 const std::vector<int>& frames, const std::string& format, const std::filesystem::path& folder) {
+  assets::make_folders(folder);
+  const std::vector<ExportBody> bodies = bodies_of(scene, shapes);
+  std::vector<std::unique_ptr<assets::Pc2Writer>> point_caches;
+  std::vector<assets::PvdEntry> series;
+  for (size_t f = 0; f < frames.size(); ++f) {
+    stop_if_interrupted();
+    const std::optional<CachedFrame> data = cache.read(frames[f]);
+    if (!data)
+      throw assets::UserError(assets::ErrorKind::kInput, cache.folder().string(),
+                              fmt::format("the cached state of frame {} went missing", frames[f]));
+    for (size_t b = 0; b < bodies.size(); ++b) {
+      const ExportBody& body = bodies[b];
+      const std::string name = fmt::format("{}_{:04d}.{}", body.name, frames[f], format);
+      if (format == "vtu") {
+        const std::vector<Vec3> x = points(data->state.x, body.first, body.count);
+        const std::vector<Vec3> v = points(data->state.v, body.first, body.count);
+        if (body.tets)
+          assets::write_vtu(folder / name, {x, *body.tets, {}, v});
+        else
+          assets::write_vtu(folder / name, {x, {}, *body.triangles, v});
+        series.push_back({data->state.t, name, static_cast<int>(b), body.name});
+        continue;
+      }
+      const std::vector<Vec3> x = points(data->state.x, body.first, body.surface_count);
+      if (format == "ply") {
+        assets::write_ply(folder / name, x, *body.triangles);
+        continue;
+      }
+      if (f == 0) {
+        assets::write_obj(folder / (body.name + ".obj"), x, *body.triangles);
+        point_caches.push_back(std::make_unique<assets::Pc2Writer>(folder / (body.name + ".pc2"), body.surface_count,
+                                                                   static_cast<int>(frames.size())));
+      }
+      point_caches[b]->add(x);
+    }
+  }
+  for (const auto& writer : point_caches) writer->finish();
+  if (format == "vtu") assets::write_pvd(folder / "clip.pvd", series);
+}
+
+}  // namespace softreel::app

@@ -1,0 +1,33 @@
+#pragma once
+// Other programs, started without a shell.
+#include <string>
+#include <vector>
+
+namespace softreel::app {
+
+/// Full path of a program found through PATH; empty if there is none.
+std::string find_program(const std::string& name);
+
+/// A running program whose standard input we write.
+class PipeTo {
+ public:
+  /// Throws std::runtime_error when it cannot be started. Its standard output is dropped; what it says on standard
+  /// error is kept for messages.
+  explicit PipeTo(const std::vector<std::string>& arguments);
+  /// Kills it if it still runs.
+  ~PipeTo();
+  PipeTo(const PipeTo&) = delete;
+  PipeTo& operator=(const PipeTo&) = delete;
+
+  /// False if it does not read any more.
+  bool write(const void* data, std::size_t bytes);
+  /// Closes its input and waits. Returns its exit code, 128 + n if signal n ended it.
+  int finish();
+  /// The last of what it said on standard error.
+  std::string complaint() const;
+
+ private:
+  int pid_ = -1, input_ = -1, errors_ = -1;
+};
+
+}  // namespace softreel::app

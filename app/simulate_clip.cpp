@@ -1,0 +1,80 @@
+#include "app/simulate_clip.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <stdexcept>
+
+#include "app/interrupt.h"
+#include "app/progress.h"
+#include "app/world.h"
+#include "assets/error.h"
+
+namespace softreel::app {
+namespace {
+
+[[noreturn]] void give_up(const assets::Scene& scene, int frame, const sim::StepReport& report, bool implicit) {
+  const std::string what_to_do =
+      implicit
+          ? "more time.substeps, softer materials or slower motions help; time.max_halvings allows more halving"
+          : "raise time.substeps, soften the materials, or take time.integrator = \"implicit-euler\", which has no "
+            "stability limit";
+  throw assets::UserError(
+      assets::ErrorKind::kSimulation, scene.file.string(),
+      fmt::format("the simulation failed on the way to frame {} (t = {:.4g} s): {}{}. Frames 1 to {} are kept; {}",
+                  frame, (frame - 1) / scene.time.fps, report.reason,
+                  implicit ? fmt::format(", also with the step halved {} times", scene.time.max_halvings) : "",
+                  frame - 1, what_to_do));
+}
+
+}  // namespace
+
+ClipRun simulate_clip(const assets::Scene& scene, const Shapes& shapes, const ClipCache& cache, int last, bool quiet) {
+  const auto start = std::chrono::steady_clock::now();
+  ClipRun run;
+  sim::Simulation simulation(build_model(scene, shapes), simulation_settings(scene));
+  run.vertices = simulation.model().vertices();
+
+  int frame = 0;
+  std::optional<CachedFrame> from;
+  while (frame < last) {
+    std::optional<CachedFrame> next = cache.read(frame + 1, run.vertices);
+    if (!next) break;
+    from = std::move(next);
+    ++frame;
+  }
+  run.frames_from_cache = frame;
+  if (from && frame < last) {
+    simulation.restore(from->state, from->memory);
+    say(quiet, fmt::format("frames 1 to {} are simulated already; going on from there", frame));
+  }
+  if (frame == 0) {
+    cache.write(1, {simulation.state(), simulation.memory(), {simulation.energies(), 0, 0, 0, 0}});
+    frame = 1;
+    run.frames_simulated = 1;
+  }
+  {
+    Progress progress("simulate", last - frame, quiet);
+    for (++frame; frame <= last; ++frame) {
+      sim::StepReport sum;
+      for (int step = 0; step < scene.time.substeps; ++step) {
+        stop_if_interrupted();
+        sum.add(simulation.step(scene.time.step()));
+        if (!sum.converged) give_up(scene, frame, sum, simulation.implicit());
+      }
+      cache.write(frame,
+                  {simulation.state(),
+                   simulation.memory(),
+                   {simulation.energies(), static_cast<double>(sum.steps), static_cast<double>(sum.newton_iterations),
+                    static_cast<double>(sum.linear_iterations), static_cast<double>(sum.retries)}});
+      ++run.frames_simulated;
+      run.total.add(sum);
+      progress.advance();
+    }
+  }
+  run.solver = run.total.solver;
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return run;
+}
+
+}  // namespace softreel::app

@@ -1,0 +1,215 @@
+#include "app/stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/convert.h"
+#include "app/drawn_surface.h"
+#include "app/placement.h"
+#include "app/world.h"
+
+namespace softreel::app {
+namespace {
+
+std::optional<std::filesystem::path> texture_path(const assets::Scene& scene, const assets::Look& look) {
+  if (look.texture.empty()) return std::nullopt;
+  return scene.asset_path(look.texture);
+}
+
+glm::vec3 to_vec(const sim::Vec3& v) { return to_glm(Eigen::Vector3d(v)); }
+
+/// A plane that lies still and level is the ground; others are drawn as a large sheet.
+bool is_level(const assets::Collider& c) {
+  if (c.shape != assets::ColliderShape::kPlane || !c.motion.empty()) return false;
+  const sim::Collider plane = make_collider(c);
+  return plane.world_from_shape.linear().col(1).y() > 1 - 1e-9;
+}
+
+render::Shape shape_of(const assets::Collider& c, const ClipExtent& extent) {
+  const float scale = static_cast<float>(c.transform.scale.x());
+  switch (c.shape) {
+    case assets::ColliderShape::kSphere:
+      return render::make_sphere(static_cast<float>(c.radius) * scale);
+    case assets::ColliderShape::kBox:
+      return render::make_box(to_vec(c.transform.scale.cwiseProduct(c.size)));
+    case assets::ColliderShape::kCapsule:
+      return render::make_capsule(static_cast<float>(c.radius) * scale, static_cast<float>(c.height) * scale);
+    case assets::ColliderShape::kPlane:
+      break;
+  }
+  const float side = std::max(6.0f * extent.bounds.radius(), 1.0f);
+  return render::make_plane(side, side);
+}
+
+render::Bounds moved(const render::Shape& shape, const Eigen::Isometry3d& pose) {
+  const glm::mat4 m = to_glm(pose);
+  render::Bounds local, world;
+  local.add(shape.positions);
+  for (int corner = 0; corner < 8; ++corner)
+    world.add(glm::vec3(m * glm::vec4(corner & 1 ? local.high.x : local.low.x, corner & 2 ? local.high.y : local.low.y,
+                                      corner & 4 ? local.high.z : local.low.z, 1)));
+  return world;
+}
+
+render::Bounds box_around(const Eigen::VectorXd& x, int first, int count) {
+  render::Bounds box;
+  for (int i = first; i < first + count; ++i) box.add(to_glm(Eigen::Vector3d(x.segment<3>(3 * i))));
+  return box;
+}
+
+/// Calls each(body, drawn surface, first vertex, is cloth) in the order of the state.
+template <class Each>
+void for_each_body(const assets::Scene& scene, const Shapes& shapes, const Each& each) {
+  int first = 0;
+  for (size_t i = 0; i < scene.soft.size(); ++i) {
+    each(static_cast<const assets::Body&>(scene.soft[i]), shapes.soft[i].drawn, first, false);
+    first += static_cast<int>(shapes.soft[i].rest.vertices.size());
+  }
+  for (size_t i = 0; i < scene.cloth.size(); ++i) {
+    each(static_cast<const assets::Body&>(scene.cloth[i]), shapes.cloth[i].drawn, first, true);
+    first += static_cast<int>(shapes.cloth[i].rest.vertices.size());
+  }
+}
+
+}  // namespace
+
+bool needs_whole_clip(const assets::Scene& scene) {
+  const bool camera = !scene.camera.position || !scene.camera.target;
+  const bool ground = scene.render.ground.show != assets::GroundMode::kOff && !scene.render.ground.height;
+  const bool light = std::any_of(scene.lights.begin(), scene.lights.end(), [](const assets::Light& l) {
+    return l.kind == assets::LightKind::kArea && (!l.position || !l.radius);
+  });
+  return camera || ground || light;
+}
+
+void ClipExtent::add(const render::Bounds& box) {
+  if (box.empty()) return;
+  bounds.add(box);
+  for (int corner = 0; corner < 8; ++corner)
+    points.emplace_back(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                        corner & 4 ? box.high.z : box.low.z);
+}
+
+void add_frame(const assets::Scene& scene, const Shapes& shapes, const sim::State& state, ClipExtent& extent) {
+  for_each_body(scene, shapes, [&](const assets::Body& body, const BodySurface& drawn, int first, bool) {
+    if (body.visible) extent.add(box_around(state.x, first, drawn.position_count));
+  });
+  for (const assets::Collider& c : scene.colliders)
+    if (c.visible && c.shape != assets::ColliderShape::kPlane)
+      extent.add(moved(shape_of(c, extent), make_collider(c).pose(state.t)));
+}
+
+Stage::Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent)
+    : scene_(scene),
+      renderer_({scene.render.size[0], scene.render.size[1], scene.render.samples,
+                 static_cast<std::uint32_t>(scene.render.seed), 0}) {
+  add_bodies(shapes);
+  add_colliders(extent);
+  place_camera(extent);
+  place_lights(extent);
+  place_ground(extent);
+}
+
+void Stage::add_bodies(const Shapes& shapes) {
+  for_each_body(scene_, shapes, [&](const assets::Body& body, const BodySurface& drawn, int first, bool cloth) {
+    if (!body.visible) return;
+    DrawnSurface d =
+        drawn_surface(drawn.surface, drawn.position_count, body.look, texture_path(scene_, body.look), cloth);
+    bodies_.push_back({renderer_.add_mesh(std::move(d.mesh), std::move(d.looks)), first, drawn.position_count});
+  });
+}
+
+void Stage::add_colliders(const ClipExtent& extent) {
+  for (const assets::Collider& c : scene_.colliders) {
+    if (!c.visible) continue;
+    if (!ground_plane_ && is_level(c) && scene_.render.ground.show != assets::GroundMode::kOff) {
+      ground_plane_ = &c;
+      continue;
+    }
+    const bool plane = c.shape == assets::ColliderShape::kPlane;
+    DrawnCollider d{renderer_.add_shape(shape_of(c, extent), plain_look(c.look, texture_path(scene_, c.look), plane)),
+                    make_collider(c), !c.motion.empty()};
+    renderer_.set_transform(d.mesh, to_glm(d.collider.pose(0)));
+    if (plane) renderer_.set_casts_shadow(d.mesh, false);
+    colliders_.push_back(std::move(d));
+  }
+}
+
+void Stage::place_camera(const ClipExtent& extent) {
+  const assets::Camera& c = scene_.camera;
+  const float aspect = static_cast<float>(scene_.render.size[0]) / static_cast<float>(scene_.render.size[1]);
+  const float fov = static_cast<float>(c.fov);
+  camera_.fov = fov;
+  camera_.up = to_vec(c.up);
+  if (c.position) {
+    camera_.position = to_vec(*c.position);
+    camera_.target = c.target ? to_vec(*c.target) : extent.bounds.centre();
+    return;
+  }
+  const render::Camera framed = render::frame_points(extent.points, fov, aspect, glm::normalize(to_vec(c.direction)));
+  if (!c.target) {
+    camera_ = framed;
+  } else {
+    // Look at the target from as far as the framing asks for.
+    camera_.target = to_vec(*c.target);
+    camera_.position =
+        camera_.target + glm::length(framed.position - framed.target) * glm::normalize(to_vec(c.direction));
+  }
+  camera_.up = to_vec(c.up);
+}
+
+void Stage::place_lights(const ClipExtent& extent) {
+  const glm::vec3 centre = extent.bounds.empty() ? glm::vec3(0) : extent.bounds.centre();
+  const float size = std::max(2 * extent.bounds.radius(), 1e-3f);
+  for (const assets::Light& l : scene_.lights) {
+    const float intensity = static_cast<float>(l.intensity);
+    const glm::vec3 direction = glm::normalize(to_vec(l.direction));
+    render::Light light;
+    if (l.kind == assets::LightKind::kSun) {
+      light = render::sun_light(-direction, static_cast<float>(l.angle), intensity);
+    } else {
+      const glm::vec3 position = l.position ? to_vec(*l.position) : centre + 3 * size * direction;
+      const float distance = glm::length(position - centre);
+      light =
+          render::area_light(position, centre, l.radius ? static_cast<float>(*l.radius) : 0.1f * distance, intensity);
+    }
+    light.color = to_linear(l.color);
+    light.casts_shadow = l.shadow;
+    lights_.push_back(light);
+  }
+}
+
+void Stage::place_ground(const ClipExtent& extent) {
+  const assets::Render& r = scene_.render;
+  const render::Stage standard = render::default_stage(extent.bounds, camera_, true);
+  environment_ = standard.environment;
+  environment_.sky *= static_cast<float>(r.sky);
+  environment_.ground_light *= static_cast<float>(r.sky);
+  environment_.background_top = to_linear(r.background.top);
+  environment_.background_bottom = to_linear(r.background.bottom);
+  environment_.exposure = static_cast<float>(std::exp2(r.exposure));
+  render::Ground& ground = environment_.ground;
+  const bool other_plane = std::any_of(scene_.colliders.begin(), scene_.colliders.end(), [](const auto& c) {
+    return c.visible && c.shape == assets::ColliderShape::kPlane;
+  });
+  ground.visible = ground_plane_ || r.ground.show == assets::GroundMode::kOn ||
+                   (r.ground.show == assets::GroundMode::kAuto && !other_plane);
+  ground.look.color = to_linear(r.ground.color);
+  ground.look.roughness = static_cast<float>(r.ground.roughness);
+  if (ground_plane_) {
+    ground.height = static_cast<float>(make_collider(*ground_plane_).world_from_shape.translation().y());
+    if (ground_plane_->look.color) ground.look.color = to_linear(*ground_plane_->look.color);
+  } else {
+    ground.height =
+        r.ground.height ? static_cast<float>(*r.ground.height) : (extent.bounds.empty() ? 0.0f : extent.bounds.low.y);
+  }
+}
+
+render::Image Stage::draw(const sim::State& state) {
+  for (const DrawnBody& body : bodies_) renderer_.set_positions(body.mesh, points_of(state.x, body.first, body.count));
+  for (const DrawnCollider& c : colliders_)
+    if (c.moves) renderer_.set_transform(c.mesh, to_glm(c.collider.pose(state.t)));
+  return renderer_.render(camera_, lights_, environment_);
+}
+
+}  // namespace softreel::app

@@ -1,0 +1,66 @@
+#pragma once
+// The scene on stage: renderer, camera, lights and surroundings for a whole clip.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/clip_cache.h"
+#include "app/shapes.h"
+#include "assets/scene.h"
+#include "render/environment.h"
+#include "render/renderer.h"
+#include "sim/collider.h"
+
+namespace softreel::app {
+
+/// Whether camera, ground or lights are placed by what the whole clip covers, so that it has to be simulated before its
+/// first picture.
+bool needs_whole_clip(const assets::Scene& scene);
+
+/// What the visible things cover over the frames that were added.
+struct ClipExtent {
+  render::Bounds bounds;          ///< of bodies and colliders with an end
+  std::vector<glm::vec3> points;  ///< corners of the boxes around each of them in each frame, for framing
+
+  void add(const render::Bounds& box);
+};
+
+/// The visible bodies and colliders of one frame.
+void add_frame(const assets::Scene& scene, const Shapes& shapes, const sim::State& state, ClipExtent& extent);
+
+class Stage {
+ public:
+  /// Builds meshes and looks; camera, ground and lights from `extent` where the scene leaves them open.
+  Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent);
+
+  render::Image draw(const sim::State& state);
+  const render::Renderer& renderer() const { return renderer_; }
+
+ private:
+  void add_bodies(const Shapes& shapes);
+  void add_colliders(const ClipExtent& extent);
+  void place_camera(const ClipExtent& extent);
+  void place_lights(const ClipExtent& extent);
+  void place_ground(const ClipExtent& extent);
+
+  struct DrawnBody {
+    render::MeshId mesh;
+    int first = 0, count = 0;  // vertices of the state
+  };
+  struct DrawnCollider {
+    render::MeshId mesh;
+    sim::Collider collider;
+    bool moves = false;
+  };
+
+  const assets::Scene& scene_;
+  render::Renderer renderer_;
+  std::vector<DrawnBody> bodies_;
+  std::vector<DrawnCollider> colliders_;
+  const assets::Collider* ground_plane_ = nullptr;  // a plane collider that is drawn as the ground
+  render::Camera camera_;
+  std::vector<render::Light> lights_;
+  render::Environment environment_;
+};
+
+}  // namespace softreel::app

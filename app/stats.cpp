@@ -1,0 +1,110 @@
+#include "app/stats.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/atomic_file.h"
+
+namespace softreel::app {
+namespace {
+
+long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024L;
+}
+
+}  // namespace
+
+void write_stats(const std::filesystem::path& file, const RunFigures& run) {
+  nlohmann::ordered_json j;
+  j["scene"] = run.scene;
+  j["sim_hash"] = run.simulation_hash;
+  if (!run.frame_hash.empty()) j["frame_hash"] = run.frame_hash;
+  j["needs"] = nlohmann::ordered_json::array();
+  j["left_out"] = nlohmann::ordered_json::object();
+  for (const BillItem& item : run.bill) {
+    if (item.needed)
+      j["needs"].push_back(item.feature);
+    else
+      j["left_out"][item.feature] = item.why;
+  }
+  if (!run.clip.solver.empty()) j["solver"]["chosen"] = run.clip.solver;
+  j["vertices"] = run.vertices;
+  j["triangles"] = run.triangles;
+  j["tets"] = run.tets;
+  j["frames"] = run.frames_asked;
+  j["frames_rendered"] = run.frames_rendered;
+  j["frames_up_to_date"] = run.frames_up_to_date;
+  j["frames_simulated"] = run.clip.frames_simulated;
+  FrameFigures sum;
+  for (const FrameFigures& f : run.per_frame) {
+    sum.steps += f.steps;
+    sum.newton_iterations += f.newton_iterations;
+    sum.linear_iterations += f.linear_iterations;
+    sum.retried_steps += f.retried_steps;
+  }
+  j["steps"] = static_cast<long>(sum.steps);
+  j["newton_iterations"] = static_cast<long>(sum.newton_iterations);
+  j["linear_iterations"] = static_cast<long>(sum.linear_iterations);
+  j["retried_steps"] = static_cast<long>(sum.retried_steps);
+  // A stage that was left out is absent.
+  const auto seconds = [&](const char* section, const char* stage, double s) {
+    if (s > 0) j[section][stage] = s;
+  };
+  seconds("seconds", "load", run.load);
+  seconds("seconds", "tetrahedralize", run.tetrahedralize);
+  seconds("seconds", "simulate", run.clip.seconds);
+  seconds("seconds", "render", run.render);
+  seconds("seconds", "encode", run.encode);
+  seconds("seconds", "total", run.total);
+  const sim::StageSeconds& s = run.clip.total.seconds;
+  seconds("simulate_seconds", "gradient", s.gradient);
+  seconds("simulate_seconds", "assemble", s.assemble);
+  seconds("simulate_seconds", "solve", s.solve);
+  seconds("simulate_seconds", "contact", s.contact);
+  seconds("simulate_seconds", "other", run.clip.seconds - s.gradient - s.assemble - s.solve - s.contact);
+  if (run.simulated) j["worst_residual"] = run.clip.total.residual;
+  j["peak_memory_bytes"] = peak_memory_bytes();
+  for (const char* name : {"kinetic", "elastic", "gravity", "contact", "dissipated"})
+    j["energy"][name] = nlohmann::ordered_json::array();
+  for (const FrameFigures& f : run.per_frame) {
+    j["energy"]["kinetic"].push_back(f.energies.kinetic);
+    j["energy"]["elastic"].push_back(f.energies.elastic);
+    j["energy"]["gravity"].push_back(f.energies.gravity);
+    j["energy"]["contact"].push_back(f.energies.contact);
+    j["energy"]["dissipated"].push_back(f.energies.dissipated);
+  }
+  assets::write_file_atomically(file, j.dump(2) + "\n");
+}
+
+std::string summary(const RunFigures& run) {
+  std::string text = fmt::format("{:.1f} s in all:", run.total);
+  const auto stage = [&](const char* name, double s) {
+    if (s >= 0.005) text += fmt::format(" {} {:.2f}", name, s);
+  };
+  stage("load", run.load);
+  stage("tetrahedralize", run.tetrahedralize);
+  stage("simulate", run.clip.seconds);
+  stage("render", run.render);
+  stage("encode", run.encode);
+  text += "\nleft out:";
+  bool any = false;
+  for (const BillItem& item : run.bill)
+    if (!item.needed) {
+      text += (any ? ", " : " ") + item.feature;
+      any = true;
+    }
+  if (!any) text += " nothing";
+  if (run.simulated && run.clip.total.newton_iterations > 0)
+    text += fmt::format("\n{} steps, {} retried, {} Newton iterations; worst residual {:.1e} of the forces of its step",
+                        run.clip.total.steps, run.clip.total.retries, run.clip.total.newton_iterations,
+                        run.clip.total.residual);
+  else if (run.simulated)
+    text += fmt::format("\n{} steps, {} retried", run.clip.total.steps, run.clip.total.retries);
+  return text;
+}
+
+}  // namespace softreel::app

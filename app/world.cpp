@@ -1,0 +1,171 @@
+#include "app/world.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "app/placement.h"
+#include "assets/error.h"
+#include "assets/scene_names.h"
+#include "sim/model_builder.h"
+#include "sim/motion.h"
+
+namespace softreel::app {
+namespace {
+
+using assets::ErrorKind;
+using assets::UserError;
+using sim::Vec3;
+
+std::vector<sim::MotionKey> motion_keys(const std::vector<assets::MotionKey>& keys) {
+  std::vector<sim::MotionKey> result;
+  for (const assets::MotionKey& k : keys) result.push_back({k.t, k.translate, k.rotate});
+  return result;
+}
+
+sim::Pin make_pin(const assets::Scene& scene, const assets::Body& body, size_t number, const assets::Pin& pin,
+                  const std::vector<Vec3>& rest, const sim::BodyRange& range) {
+  const auto refuse = [&](const std::string& why) {
+    throw UserError(ErrorKind::kUsage, scene.file.string(),
+                    fmt::format("pin {} of '{}' {}", number + 1, body.name, why));
+  };
+  sim::Pin result;
+  Eigen::AlignedBox3d bounds;
+  for (const Vec3& p : rest) bounds.extend(p);
+  std::vector<bool> held(rest.size(), false);
+  for (int v : pin.vertices) {
+    if (v < 0 || static_cast<size_t>(v) >= rest.size())
+      refuse(fmt::format("names vertex {}; the mesh has vertices 0 to {}", v, rest.size() - 1));
+    held[static_cast<size_t>(v)] = true;
+  }
+  if (pin.box)
+    for (size_t i = 0; i < rest.size(); ++i)
+      if ((rest[i].array() >= pin.box->lo.array()).all() && (rest[i].array() <= pin.box->hi.array()).all())
+        held[i] = true;
+  Vec3 mean = Vec3::Zero();
+  for (size_t i = 0; i < rest.size(); ++i)
+    if (held[i]) {
+      result.vertices.push_back(range.first + static_cast<int>(i));
+      mean += rest[i];
+    }
+  if (result.vertices.empty())
+    refuse(fmt::format(
+        "holds no vertex: the body reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) [m]",
+        bounds.min().x(), bounds.min().y(), bounds.min().z(), bounds.max().x(), bounds.max().y(), bounds.max().z()));
+  mean /= static_cast<double>(result.vertices.size());
+  for (size_t a = 0; a < 3; ++a) result.axes[a] = pin.axes[a];
+  if (!pin.motion.empty()) result.motion = sim::Motion(motion_keys(pin.motion), pin.pivot.value_or(mean));
+  return result;
+}
+
+void finish_body(const assets::Scene& scene, const assets::Body& body, const std::vector<Vec3>& rest,
+                 const sim::BodyRange& range, sim::ModelBuilder& builder) {
+  builder.set_velocity(range, body.velocity, body.spin * (std::numbers::pi / 180));
+  for (size_t p = 0; p < body.pins.size(); ++p) builder.add_pin(make_pin(scene, body, p, body.pins[p], rest, range));
+}
+
+std::vector<sim::Spring> springs_of(const assets::Cloth& cloth, const sim::TriangleMesh& rest) {
+  const assets::ClothMaterial& m = cloth.material;
+  if (!cloth.springs.structural)
+    return sim::young_springs(rest, m.young, m.thickness, cloth.springs.bend.value_or(0.1 * m.young * m.thickness));
+  const double structural = *cloth.springs.structural;
+  const sim::SpringStiffness k{structural, cloth.springs.shear.value_or(0.5 * structural),
+                               cloth.springs.bend.value_or(0.1 * structural)};
+  return cloth.grid ? sim::grid_springs(rest, cloth.grid->cells[0], cloth.grid->cells[1], k)
+                    : sim::mesh_springs(rest, k);
+}
+
+sim::BendingModel bending_model(assets::BendingModel model) {
+  switch (model) {
+    case assets::BendingModel::kAuto:
+      return sim::BendingModel::kAuto;
+    case assets::BendingModel::kQuadratic:
+      return sim::BendingModel::kQuadratic;
+    case assets::BendingModel::kDiscreteShell:
+      return sim::BendingModel::kDiscreteShell;
+  }
+  return sim::BendingModel::kAuto;
+}
+
+void add_cloth(const assets::Scene& scene, const assets::Cloth& cloth, const ClothShape& shape,
+               sim::ModelBuilder& builder) {
+  sim::BodyRange range;
+  try {
+    if (cloth.model == assets::ClothModel::kMassSpring) {
+      range = builder.add_mass_spring(cloth.name, shape.rest, springs_of(cloth, shape.rest), cloth.areal_density(),
+                                      cloth.spring_damping);
+    } else {
+      sim::MembraneMaterial m;
+      m.model = assets::name_of(cloth.material.model);
+      m.young = cloth.material.young;
+      m.poisson = cloth.material.poisson;
+      m.thickness = cloth.material.thickness;
+      m.bending = cloth.material.bending;
+      m.bending_model = bending_model(cloth.bending_model);
+      m.areal_density = cloth.areal_density();
+      range = builder.add_membrane(cloth.name, shape.rest, m);
+    }
+  } catch (const std::invalid_argument& e) {
+    throw UserError(ErrorKind::kInput, scene.file.string(), fmt::format("cloth '{}': {}", cloth.name, e.what()));
+  }
+  finish_body(scene, cloth, shape.rest.vertices, range, builder);
+}
+
+}  // namespace
+
+sim::Collider make_collider(const assets::Collider& c) {
+  sim::Collider result;
+  const double scale = c.transform.scale.x();
+  Eigen::Matrix3d R = sim::euler_xyz(c.transform.rotate);
+  switch (c.shape) {
+    case assets::ColliderShape::kPlane:
+      result.shape = sim::PlaneShape{};
+      R = R * Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), c.normal).toRotationMatrix();
+      break;
+    case assets::ColliderShape::kSphere:
+      result.shape = sim::SphereShape{c.radius * scale};
+      break;
+    case assets::ColliderShape::kBox:
+      result.shape = sim::BoxShape{0.5 * c.transform.scale.cwiseProduct(c.size)};
+      break;
+    case assets::ColliderShape::kCapsule:
+      result.shape = sim::CapsuleShape{c.radius * scale, 0.5 * c.height * scale};
+      break;
+  }
+  result.world_from_shape.linear() = R;
+  result.world_from_shape.translation() = placed(c.transform, Vec3::Zero());
+  if (!c.motion.empty()) result.motion = sim::Motion(motion_keys(c.motion), result.world_from_shape.translation());
+  result.friction = c.friction;
+  return result;
+}
+
+sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
+  sim::ModelBuilder builder;
+  for (size_t i = 0; i < scene.soft.size(); ++i) {
+    const assets::SoftBody& soft = scene.soft[i];
+    const sim::TetMesh& rest = shapes.soft[i].rest;
+    const sim::BodyRange range = builder.add_solid(
+        soft.name, rest,
+        {std::string(assets::name_of(soft.material.model)), soft.material.young, soft.material.poisson, soft.density});
+    finish_body(scene, soft, rest.vertices, range, builder);
+  }
+  for (size_t i = 0; i < scene.cloth.size(); ++i) add_cloth(scene, scene.cloth[i], shapes.cloth[i], builder);
+  std::vector<sim::Collider> colliders;
+  for (const assets::Collider& c : scene.colliders) colliders.push_back(make_collider(c));
+  return builder.finish(scene.gravity, {scene.damping.drag, scene.damping.alpha, scene.damping.beta},
+                        std::move(colliders),
+                        {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0)});
+}
+
+sim::SimulationSettings simulation_settings(const assets::Scene& scene) {
+  sim::SimulationSettings s;
+  s.integrator = assets::name_of(scene.time.integrator);
+  s.linear_solver = assets::name_of(scene.solver.linear);
+  s.newton.tolerance = scene.solver.tolerance;
+  s.newton.max_iterations = scene.solver.max_iterations;
+  s.newton.linear_tolerance = scene.solver.linear_tolerance;
+  s.max_halvings = scene.time.max_halvings;
+  return s;
+}
+
+}  // namespace softreel::app

@@ -1,0 +1,18 @@
+#pragma once
+// From the scene's description to what is simulated.
+#include "app/shapes.h"
+#include "assets/scene.h"
+#include "sim/collider.h"
+#include "sim/simulation.h"
+
+namespace softreel::app {
+
+/// Bodies in the order soft, cloth. Throws UserError (kUsage) for what only the meshes show to be wrong: a pin that
+/// holds no vertex, a mesh with flat triangles for a cloth.
+sim::Model build_model(const assets::Scene& scene, const Shapes& shapes);
+
+sim::SimulationSettings simulation_settings(const assets::Scene& scene);
+
+sim::Collider make_collider(const assets::Collider& collider);
+
+}  // namespace softreel::app
