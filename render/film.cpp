@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <thread>
 
 #include "render/environment.h"
 
@@ -65,21 +66,24 @@ glm::vec3 tone_curve(const glm::vec3& radiance) {
 
 std::uint8_t srgb_byte(float linear) { return kSrgb.byte(linear); }
 
-Image develop(const FloatImage& film, const Environment& environment) {
-  Image image = Image::blank(film.width, film.height);
+namespace {
+
+/// Rows [first, last) of the picture.
+void develop_rows(const FloatImage& film, const Environment& environment, std::size_t first, std::size_t last,
+                  Image& image) {
   const auto width = static_cast<std::size_t>(film.width);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(film.height); ++y) {
+  for (std::size_t y = first; y < last; ++y) {
     const float down = (static_cast<float>(y) + 0.5f) / static_cast<float>(film.height);
     const glm::vec3 background = glm::mix(environment.background_top, environment.background_bottom, down);
-    const glm::vec3 background_bytes(kSrgb.byte(background.x), kSrgb.byte(background.y), kSrgb.byte(background.z));
+    const std::array<std::uint8_t, 3> background_bytes{kSrgb.byte(background.x), kSrgb.byte(background.y),
+                                                       kSrgb.byte(background.z)};
     for (std::size_t x = 0; x < width; ++x) {
       const glm::vec4& pixel = film.rgba[y * width + x];
       std::uint8_t* out = image.rgba.data() + 4 * (y * width + x);
       const float alpha = std::clamp(pixel.w, 0.0f, 1.0f);
       out[3] = environment.transparent ? static_cast<std::uint8_t>(std::lround(255 * alpha)) : 255;
       if (!(alpha > 0)) {
-        for (int c = 0; c < 3; ++c)
-          out[c] = environment.transparent ? 0 : static_cast<std::uint8_t>(background_bytes[c]);
+        for (std::size_t c = 0; c < 3; ++c) out[c] = environment.transparent ? 0 : background_bytes[c];
         continue;
       }
       const glm::vec3 drawn = tone_curve(glm::max(glm::vec3(pixel) / alpha, 0.0f) * environment.exposure);
@@ -87,6 +91,21 @@ Image develop(const FloatImage& film, const Environment& environment) {
       for (int c = 0; c < 3; ++c) out[c] = kSrgb.byte(color[c]);
     }
   }
+}
+
+}  // namespace
+
+Image develop(const FloatImage& film, const Environment& environment) {
+  Image image = Image::blank(film.width, film.height);
+  const auto height = static_cast<std::size_t>(film.height);
+  // Pixels do not depend on one another: the bits are the same with any number of threads.
+  const std::size_t parts = image.pixel_count() < 100000 ? 1 : std::clamp(std::thread::hardware_concurrency(), 1u, 8u);
+  std::vector<std::jthread> threads;
+  for (std::size_t part = 1; part < parts; ++part)
+    threads.emplace_back(
+        [&, part] { develop_rows(film, environment, height * part / parts, height * (part + 1) / parts, image); });
+  develop_rows(film, environment, 0, height / parts, image);
+  threads.clear();
   return image;
 }
 

@@ -14,7 +14,7 @@ constexpr GLenum kMaxAnisotropy = 0x84FE;  // GL_TEXTURE_MAX_ANISOTROPY, core si
 GLuint Programs::geometry(bool texture) {
   const auto place = geometry_.find(texture);
   if (place != geometry_.end()) return *place->second;
-  GlProgram program(gl_, geometry_vertex_source(), geometry_fragment_source(texture));
+  GlProgram program(gl_, geometry_vertex_source(texture), geometry_fragment_source(texture));
   return *geometry_.emplace(texture, std::move(program)).first->second;
 }
 

@@ -111,7 +111,7 @@ struct Renderer::State {
     for (const GpuMesh* mesh : meshes_drawn)
       for (const Look& look : mesh->looks()) features.sheen = features.sheen || look.sheen > 0;
     // What few passes cannot average they must filter.
-    features.shadow_taps = picture.passes == 1 ? 12 : picture.passes < 8 ? 6 : 3;
+    features.shadow_taps = picture.passes == 1 ? 10 : picture.passes < 8 ? 6 : 3;
     return features;
   }
 

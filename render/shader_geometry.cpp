@@ -8,11 +8,11 @@ namespace softreel::render {
 const char* const kGeometryMain = R"(
 in vec3 world_position;
 in vec3 world_normal;
-in vec2 texture_uv;
 layout(location = 2) uniform vec4 front_color;  // rgb, metallic
 layout(location = 3) uniform vec4 back_color;   // rgb, roughness
 layout(location = 4) uniform float sheen;
 #ifdef TEXTURE
+in vec2 texture_uv;
 layout(binding = 0) uniform sampler2D color_texture;
 #endif
 layout(location = 0) out uvec4 result;

@@ -69,7 +69,8 @@ vec3 sky_irradiance(vec3 n) { return mix(pass.ground_light.rgb, pass.sky.rgb, 0.
 vec3 sky_radiance(vec3 r, float roughness) {
   float blur = mix(0.12, 1.0, roughness);
   float up = smoothstep(-blur, blur, r.y);
-  float horizon = exp(-r.y * r.y / (0.02 + blur * blur)) * (1 - roughness);
+  float width = 0.02 + blur * blur;
+  float horizon = width / (width + 2 * r.y * r.y) * (1 - roughness);
   float box = smoothstep(0.7 - 0.9 * blur, 0.7 + 0.9 * blur, r.y) * (1 - 0.8 * roughness);
   vec3 above = pass.sky.rgb * (0.85 + 0.5 * horizon + 0.9 * box);
   vec3 below = pass.ground_light.rgb * (1 + 0.2 * horizon);

@@ -58,8 +58,9 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   // A small light, or many passes: its hard shadow, smoothed over a texel, is enough.
   search = max(search, 1.2 * texel_uv);
 
-  float turn = 6.2831853 * pixel_turn();
-  vec2 first_direction = vec2(cos(turn), sin(turn));
+  // A direction on the half circle, without trigonometry.
+  float turn = 2 * pixel_turn() - 1;
+  vec2 first_direction = vec2(1 - turn * turn, 2 * turn) / (1 + turn * turn);
   vec2 direction = first_direction;
   float blocker = 0;
   float blockers = 0;

@@ -30,17 +30,21 @@ std::string add_lights(const LightingFeatures& features) {
 constexpr const char* kGeometryVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+#ifdef TEXTURE
 layout(location = 2) in vec2 uv;
+out vec2 texture_uv;
+#endif
 layout(location = 0) uniform mat4 world_from_mesh;
 layout(location = 1) uniform mat3 normal_matrix;
 out vec3 world_position;
 out vec3 world_normal;
-out vec2 texture_uv;
 void main() {
   vec4 world = world_from_mesh * vec4(position, 1);
   world_position = world.xyz;
   world_normal = normal_matrix * normal;
+#ifdef TEXTURE
   texture_uv = vec2(uv.x, 1 - uv.y);  // pictures are stored from top to bottom
+#endif
   gl_Position = pass.clip_from_world * world;
 }
 )";
@@ -57,7 +61,9 @@ void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3
 
 }  // namespace
 
-std::string geometry_vertex_source() { return header() + kPassBlock + kGeometryVertex; }
+std::string geometry_vertex_source(bool texture) {
+  return header() + (texture ? "#define TEXTURE\n" : "") + kPassBlock + kGeometryVertex;
+}
 
 std::string geometry_fragment_source(bool texture) {
   return header() + (texture ? "#define TEXTURE\n" : "") + kGeometryMain;

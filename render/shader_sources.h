@@ -15,7 +15,7 @@ struct LightingFeatures {
   auto operator<=>(const LightingFeatures&) const = default;
 };
 
-std::string geometry_vertex_source();
+std::string geometry_vertex_source(bool texture);
 std::string geometry_fragment_source(bool texture);
 std::string lighting_fragment_source(const LightingFeatures& features);
 /// Depth only, for shadow maps.
