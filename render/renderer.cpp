@@ -31,12 +31,9 @@ void check_options(const RenderOptions& options) {
         fmt::format("shadow maps of {} texels: must be 16 to 8192, or 0", options.shadow_map_size));
 }
 
-/// A single pass must be sharp by itself; the maps of many passes, each seen from another point, refine one another.
 int shadow_map_size(const RenderOptions& options) {
   if (options.shadow_map_size != 0) return options.shadow_map_size;
-  const int side = std::max(options.width, options.height);
-  const int fine = side <= 480 ? 1024 : 2048;
-  return options.samples >= 4 && side <= 1920 ? 1024 : fine;
+  return std::max(options.width, options.height) <= 1280 ? 1024 : 2048;
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ float pixel_turn() {
 // against the one before.
 const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-const float kWidest = 0.12;  // blur, in parts of the map
+const float kWidest = 0.12;            // blur, in parts of the map
+const float kFarthest = 1.0 - 1e-6;  // nearer than where the map is empty
 
 // 0 in full shadow, 1 in full light. `normal`: of the surface as it is, unit, towards the light.
 float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
@@ -50,7 +51,7 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   slope = clamp(slope, vec2(-100), vec2(100));
   float z = min(p.z, 1.0) - dot(abs(slope), 0.6 * texel_uv) - 1e-6;
   bool beyond = p.z >= 1;
-  if (beyond) { slope = vec2(0); z = 1 - 1e-6; }
+  if (beyond) { slope = vec2(0); z = kFarthest; }
 
   float here = linear_depth(s.depth, p.z);
   float reach = s.filter_size.w * (perspective ? max(1 / s.depth.x - 1 / here, 0) : max(here - s.depth.x, 0));
@@ -68,7 +69,7 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
     vec2 d = sqrt((float(i) + 0.5) / SHADOW_TAPS) * direction * search;
     direction = kGoldenTurn * direction;
     float stored = textureLod(shadow_depth, vec3(p.xy + d, map), 0).r;
-    float in_front = stored < z + dot(d, slope) ? 1.0 : 0.0;
+    float in_front = stored < min(z + dot(d, slope), kFarthest) ? 1.0 : 0.0;
     blocker += in_front * stored;
     blockers += in_front;
   }
@@ -83,7 +84,7 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   for (int i = 0; i < taps; ++i) {
     vec2 d = sqrt((float(i) + 0.5) / SHADOW_TAPS) * direction * radius;
     direction = kGoldenTurn * direction;
-    light += texture(shadow_compare, vec4(p.xy + d, map, z + dot(d, slope)));
+    light += texture(shadow_compare, vec4(p.xy + d, map, min(z + dot(d, slope), kFarthest)));
   }
   return taps > 0 ? light / taps : (blockers > 0 ? 0.0 : 1.0);
 }
