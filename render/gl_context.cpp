@@ -9,6 +9,10 @@
 
 #include "render/error.h"
 
+// OSMesa keeps its screen and a few words per context until the process ends: not for the leak checker of a sanitized
+// build.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
+
 namespace softreel::render {
 
 struct GlContext::State {
