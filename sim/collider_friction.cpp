@@ -61,7 +61,10 @@ class ColliderFriction final : public EnergyTerm {
     });
   }
 
-  // f'(u)/u (T - uu^T/u^2) + f''(u) uu^T/u^2, both parts positive semi-definite.
+  // f'(u)/u (T - uu^T/u^2) + f''(u) uu^T/u^2, both parts positive semi-definite. f'' falls from 2/slip_speed to 0
+  // within slip_speed, so a Newton step that starts in slip knows nothing of the stick it may run across, leaps to the
+  // other side, and comes back the same way. Touches that a proposed step would turn around get the curvature of stick:
+  // they end up in it, and from there Newton's method goes out monotonically (f' is concave).
   void element_hessians(const Eigen::VectorXd& v, double scale, Definiteness, double* blocks) const override {
     parallel_for(vertices(), [&](int i) {
       Eigen::Map<Eigen::Matrix3d> block(blocks + 9 * static_cast<size_t>(i));
@@ -69,15 +72,37 @@ class ColliderFriction final : public EnergyTerm {
       visit(i, [&](const Touch& touch) {
         const Eigen::Vector3d u = slip(touch, v, i);
         const double speed = u.norm();
-        const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - touch.normal * touch.normal.transpose();
-        Eigen::Matrix3d D = over_speed(speed) * tangent;
-        if (speed > 0) {
-          const double second = speed < slip_speed_ ? 2 / slip_speed_ * (1 - speed / slip_speed_) : 0.0;
-          D += (second - over_speed(speed)) / (speed * speed) * u * u.transpose();
+        Eigen::Matrix3d D = Eigen::Matrix3d::Identity() - touch.normal * touch.normal.transpose();
+        if (touch.stuck) {
+          D *= 2 / slip_speed_;
+        } else {
+          D *= over_speed(speed);
+          if (speed > 0) {
+            const double second = speed < slip_speed_ ? 2 / slip_speed_ * (1 - speed / slip_speed_) : 0.0;
+            D += (second - over_speed(speed)) / (speed * speed) * u * u.transpose();
+          }
         }
         block += scale * touch.limit * D;
       });
     });
+  }
+
+  bool harden(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) override {
+    bool any = false;
+    for (int i = 0; i < vertices(); ++i)
+      for (int k = touches_of_[static_cast<size_t>(i)]; k < touches_of_[static_cast<size_t>(i) + 1]; ++k) {
+        Touch& touch = touches_[static_cast<size_t>(k)];
+        if (touch.stuck) continue;
+        const Eigen::Vector3d u = slip(touch, v, i);
+        Eigen::Vector3d du = dv.segment<3>(3 * i);
+        du -= touch.normal.dot(du) * touch.normal;
+        if (u.norm() > slip_speed_ && u.dot(u + du) < 0) any = touch.stuck = true;
+      }
+    return any;
+  }
+
+  void soften() override {
+    for (Touch& touch : touches_) touch.stuck = false;
   }
 
  private:
@@ -85,6 +110,7 @@ class ColliderFriction final : public EnergyTerm {
     double limit;              // mu times the normal force [N]
     Eigen::Vector3d normal;    // world
     Eigen::Vector3d velocity;  // of the collider at the point [m/s]
+    bool stuck = false;        // its Hessian is that of stick, wherever it is
   };
 
   int vertices() const { return touches_of_.empty() ? 0 : static_cast<int>(touches_of_.size()) - 1; }

@@ -57,6 +57,14 @@ class EnergyTerm {
     static_cast<void>(q), static_cast<void>(scale), static_cast<void>(definiteness), static_cast<void>(blocks);
   }
 
+  /// A solver proposes to go from q to q + dq. A term whose derivative turns sharply on the way (friction) may answer
+  /// true: it has made its Hessians stiffer there, and the step should be proposed anew. Until `soften`.
+  virtual bool harden(const Eigen::VectorXd& q, const Eigen::VectorXd& dq) {
+    static_cast<void>(q), static_cast<void>(dq);
+    return false;
+  }
+  virtual void soften() {}
+
   /// The largest step s in (0, 1] along q + s dq that this term allows (nothing may pass through).
   virtual double max_step(const Eigen::VectorXd& q, const Eigen::VectorXd& dq) const {
     static_cast<void>(q), static_cast<void>(dq);

@@ -95,6 +95,19 @@ void IncrementalPotential::hessian(const Eigen::VectorXd& y, BlockMatrix& H, Ste
   report.hessians += assembler_.evaluations() - before;
 }
 
+bool IncrementalPotential::harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) {
+  if (model_.dissipations.empty()) return false;
+  set_velocity(y);
+  const Eigen::VectorXd dv = stage_.a * dy;
+  bool any = false;
+  for (const auto& t : model_.dissipations) any = t->harden(velocity_, dv) || any;
+  return any;
+}
+
+void IncrementalPotential::soften() {
+  for (const auto& t : model_.dissipations) t->soften();
+}
+
 double IncrementalPotential::max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const {
   double step = 1;
   for (const auto& t : model_.potentials) step = std::min(step, t->max_step(y, dy));

@@ -25,6 +25,11 @@ class IncrementalPotential {
   /// Clamped Hessian [kg]; identity where held.
   void hessian(const Eigen::VectorXd& y, BlockMatrix& H, StepReport& report);
 
+  /// Offers the step dy from y to all terms; true if some have changed their Hessians because of it.
+  bool harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy);
+  /// Takes such changes back.
+  void soften();
+
   /// Largest step along dy that no term forbids, in (0, 1].
   double max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const;
 

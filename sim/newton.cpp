@@ -14,6 +14,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kRounding = 16 * kEpsilon;  // of forces and energies, relative to stiffness times position
 constexpr double kArmijo = 1e-4;
 constexpr double kFlatter = 0.9;
+constexpr int kMostProposals = 4;  // of a direction in one iteration
 constexpr double kShortestStep = 1e-10;
 // A linear solve goes as far as the whole step needs, but no further than linear_tolerance at once: the
 // next Newton iteration has a better matrix.
@@ -96,20 +97,13 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
                   model_.bodies[slowest].name + "'");
     }
     ++report.newton_iterations;
-    phi_.hessian(y, H_, report);
     for (size_t b = 0; b < bodies; ++b)
       linear_target[b] = std::max(kLinearShare * target[b], settings_.linear_tolerance * norms[b]);
-    {
-      const Stopwatch watch(report.seconds.solve);
-      if (!analysed_) {
-        linear_->analyse(H_);
-        analysed_ = true;
-      }
-      linear_->factorize(H_);
-      const LinearReport linear = linear_->solve(-g_, {model_.bodies, linear_target, &y, &phi_.held()}, d_);
-      report.linear_iterations += linear.iterations;
-      report.solver = linear.chosen;
-      if (!linear.ok) return fail("the linear solver failed: " + linear.reason);
+    phi_.soften();
+    for (int proposal = 0; proposal == 0 || (proposal < kMostProposals && phi_.harden(y, d_)); ++proposal) {
+      phi_.hessian(y, H_, report);
+      const std::string failure = direction(y, linear_target, report);
+      if (!failure.empty()) return fail("the linear solver failed: " + failure);
     }
     const double slope = g_.dot(d_);
     if (!(slope < 0)) return fail("the search direction does not go downhill");
@@ -117,6 +111,20 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
     phi_.gradient(y, g_, report);
     norms = body_norms(model_, g_);
   }
+}
+
+/// d := -H^-1 g. Returns what went wrong, or nothing.
+std::string Newton::direction(const Eigen::VectorXd& y, const std::vector<double>& targets, StepReport& report) {
+  const Stopwatch watch(report.seconds.solve);
+  if (!analysed_) {
+    linear_->analyse(H_);
+    analysed_ = true;
+  }
+  linear_->factorize(H_);
+  const LinearReport linear = linear_->solve(-g_, {model_.bodies, targets, &y, &phi_.held()}, d_);
+  report.linear_iterations += linear.iterations;
+  report.solver = linear.chosen;
+  return linear.ok ? std::string() : linear.reason;
 }
 
 /// Backtracking to Armijo's condition. Near the minimum the decrease drowns in the rounding of Phi; there the slope

@@ -2,6 +2,7 @@
 // Newton's method with backtracking for the incremental potential.
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +32,7 @@ class Newton {
   void prepare();
 
  private:
+  std::string direction(const Eigen::VectorXd& y, const std::vector<double>& targets, StepReport& report);
   bool line_search(Eigen::VectorXd& y, double slope, double rounding, StepReport& report);
 
   const Model& model_;
