@@ -63,8 +63,9 @@ class ColliderFriction final : public EnergyTerm {
 
   // f'(u)/u (T - uu^T/u^2) + f''(u) uu^T/u^2, both parts positive semi-definite. f'' falls from 2/slip_speed to 0
   // within slip_speed, so a Newton step that starts in slip knows nothing of the stick it may run across, leaps to the
-  // other side, and comes back the same way. Touches that a proposed step would turn around get the curvature of stick:
-  // they end up in it, and from there Newton's method goes out monotonically (f' is concave).
+  // other side, and comes back the same way. Touches that a proposed step would turn around are modelled by their stick
+  // branch, u^2/slip_speed, instead: they end up in it, and if they should slip after all, Newton's method leaves it
+  // monotonically (f' is concave).
   void element_hessians(const Eigen::VectorXd& v, double scale, Definiteness, double* blocks) const override {
     parallel_for(vertices(), [&](int i) {
       Eigen::Map<Eigen::Matrix3d> block(blocks + 9 * static_cast<size_t>(i));
@@ -101,6 +102,16 @@ class ColliderFriction final : public EnergyTerm {
     return any;
   }
 
+  void add_hardened_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override {
+    parallel_for(vertices(), [&](int i) {
+      visit(i, [&](const Touch& touch) {
+        if (!touch.stuck) return;
+        const Eigen::Vector3d u = slip(touch, v, i);
+        gradient.segment<3>(3 * i) += touch.limit * (2 / slip_speed_ - over_speed(u.norm())) * u;
+      });
+    });
+  }
+
   void soften() override {
     for (Touch& touch : touches_) touch.stuck = false;
   }
@@ -110,7 +121,7 @@ class ColliderFriction final : public EnergyTerm {
     double limit;              // mu times the normal force [N]
     Eigen::Vector3d normal;    // world
     Eigen::Vector3d velocity;  // of the collider at the point [m/s]
-    bool stuck = false;        // its Hessian is that of stick, wherever it is
+    bool stuck = false;        // modelled by its stick branch, wherever it is
   };
 
   int vertices() const { return touches_of_.empty() ? 0 : static_cast<int>(touches_of_.size()) - 1; }

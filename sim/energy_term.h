@@ -58,10 +58,15 @@ class EnergyTerm {
   }
 
   /// A solver proposes to go from q to q + dq. A term whose derivative turns sharply on the way (friction) may answer
-  /// true: it has made its Hessians stiffer there, and the step should be proposed anew. Until `soften`.
+  /// true: from now on, until `soften`, its Hessians are those of another branch, which suits the end of that step
+  /// better, and the step should be proposed anew.
   virtual bool harden(const Eigen::VectorXd& q, const Eigen::VectorXd& dq) {
     static_cast<void>(q), static_cast<void>(dq);
     return false;
+  }
+  /// gradient += what that branch's gradient at q has over the true one.
+  virtual void add_hardened_gradient(const Eigen::VectorXd& q, Eigen::VectorXd& gradient) const {
+    static_cast<void>(q), static_cast<void>(gradient);
   }
   virtual void soften() {}
 

@@ -104,6 +104,14 @@ bool IncrementalPotential::harden(const Eigen::VectorXd& y, const Eigen::VectorX
   return any;
 }
 
+void IncrementalPotential::add_hardened_gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g) {
+  set_velocity(y);
+  Eigen::VectorXd excess = Eigen::VectorXd::Zero(y.size());
+  for (const auto& t : model_.dissipations) t->add_hardened_gradient(velocity_, excess);
+  pins_.zero(excess);
+  g += stage_.beta * excess;
+}
+
 void IncrementalPotential::soften() {
   for (const auto& t : model_.dissipations) t->soften();
 }

@@ -27,6 +27,8 @@ class IncrementalPotential {
 
   /// Offers the step dy from y to all terms; true if some have changed their Hessians because of it.
   bool harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy);
+  /// g += what the gradient of the changed model has over the true one; zero where held.
+  void add_hardened_gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g);
   /// Takes such changes back.
   void soften();
 

@@ -100,10 +100,14 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
     for (size_t b = 0; b < bodies; ++b)
       linear_target[b] = std::max(kLinearShare * target[b], settings_.linear_tolerance * norms[b]);
     phi_.soften();
-    for (int proposal = 0; proposal == 0 || (proposal < kMostProposals && phi_.harden(y, d_)); ++proposal) {
+    model_gradient_ = g_;
+    for (int proposal = 1;; ++proposal) {
       phi_.hessian(y, H_, report);
       const std::string failure = direction(y, linear_target, report);
       if (!failure.empty()) return fail("the linear solver failed: " + failure);
+      if (proposal == kMostProposals || !phi_.harden(y, d_)) break;
+      model_gradient_ = g_;
+      phi_.add_hardened_gradient(y, model_gradient_);
     }
     const double slope = g_.dot(d_);
     if (!(slope < 0)) return fail("the search direction does not go downhill");
@@ -113,7 +117,7 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
   }
 }
 
-/// d := -H^-1 g. Returns what went wrong, or nothing.
+/// d := -H^-1 g of the model. Returns what went wrong, or nothing.
 std::string Newton::direction(const Eigen::VectorXd& y, const std::vector<double>& targets, StepReport& report) {
   const Stopwatch watch(report.seconds.solve);
   if (!analysed_) {
@@ -121,7 +125,7 @@ std::string Newton::direction(const Eigen::VectorXd& y, const std::vector<double
     analysed_ = true;
   }
   linear_->factorize(H_);
-  const LinearReport linear = linear_->solve(-g_, {model_.bodies, targets, &y, &phi_.held()}, d_);
+  const LinearReport linear = linear_->solve(-model_gradient_, {model_.bodies, targets, &y, &phi_.held()}, d_);
   report.linear_iterations += linear.iterations;
   report.solver = linear.chosen;
   return linear.ok ? std::string() : linear.reason;

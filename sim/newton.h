@@ -41,7 +41,7 @@ class Newton {
   std::unique_ptr<LinearSolver> linear_;
   bool analysed_ = false;
   BlockMatrix H_;
-  Eigen::VectorXd g_, d_, trial_, trial_gradient_;
+  Eigen::VectorXd g_, model_gradient_, d_, trial_, trial_gradient_;
 };
 
 }  // namespace softreel::sim
