@@ -4,9 +4,8 @@
 
 namespace softreel::sim {
 
-void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  y.resize(3 * rows());
-  parallel_for(rows(), [&](int i) {
+void BlockMatrix::multiply_rows(int first, int count, const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  for (int i = first; i < first + count; ++i) {
     double s0 = 0, s1 = 0, s2 = 0;
     const double* a = values.data() + 9 * static_cast<size_t>(row_start[static_cast<size_t>(i)]);
     const int end = row_start[static_cast<size_t>(i) + 1];
@@ -19,7 +18,12 @@ void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     y(3 * i) = s0;
     y(3 * i + 1) = s1;
     y(3 * i + 2) = s2;
-  });
+  }
+}
+
+void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  y.resize(3 * rows());
+  parallel_for(rows(), Work::kRow, [&](int i) { multiply_rows(i, 1, x, y); });
 }
 
 }  // namespace softreel::sim

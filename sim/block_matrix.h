@@ -17,6 +17,9 @@ struct BlockMatrix {
     return Eigen::Map<const Eigen::Matrix3d>(values.data() + 9 * size_t(k));
   }
 
+  /// Block rows [first, first + count) of y = A x.
+  void multiply_rows(int first, int count, const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+
   /// y = A x, both 3n; the same bits for any number of threads.
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 };

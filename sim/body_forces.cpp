@@ -15,7 +15,7 @@ class Gravity final : public EnergyTerm {
   std::string_view name() const override { return "gravity"; }
   EnergyKind kind() const override { return EnergyKind::kGravity; }
   double value(const Eigen::VectorXd& x) const override {
-    return -parallel_sum(static_cast<int>(x.size()), [&](int i) { return weight_(i) * x(i); });
+    return -parallel_sum(static_cast<int>(x.size()), Work::kVector, [&](int i) { return weight_(i) * x(i); });
   }
   void add_gradient(const Eigen::VectorXd&, Eigen::VectorXd& gradient) const override { gradient -= weight_; }
 

@@ -47,7 +47,7 @@ void ColliderContact::visit(const Eigen::Vector3d& point, const Visit& each) con
 }
 
 double ColliderContact::value(const Eigen::VectorXd& x) const {
-  return parallel_sum(static_cast<int>(vertices_.size()), [&](int i) {
+  return parallel_sum(static_cast<int>(vertices_.size()), Work::kRow, [&](int i) {
     double sum = 0;
     visit(x.segment<3>(3 * i), [&](double s, const Eigen::Vector3d&) { sum += stiffness_(i) / 3 * s * s * s; });
     return sum;
@@ -55,7 +55,7 @@ double ColliderContact::value(const Eigen::VectorXd& x) const {
 }
 
 void ColliderContact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
-  parallel_for(static_cast<int>(vertices_.size()), [&](int i) {
+  parallel_for(static_cast<int>(vertices_.size()), Work::kRow, [&](int i) {
     visit(x.segment<3>(3 * i), [&](double s, const Eigen::Vector3d& normal) {
       gradient.segment<3>(3 * i) -= stiffness_(i) * s * s * normal;
     });
@@ -65,7 +65,7 @@ void ColliderContact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gr
 // psi' < 0 and the distance from a convex shape is convex: the curvature part is negative semi-definite on the tangent
 // plane and clamped away; what stays is psi'' n n^T.
 void ColliderContact::element_hessians(const Eigen::VectorXd& x, double scale, Definiteness, double* blocks) const {
-  parallel_for(static_cast<int>(vertices_.size()), [&](int i) {
+  parallel_for(static_cast<int>(vertices_.size()), Work::kRow, [&](int i) {
     Eigen::Map<Eigen::Matrix3d> block(blocks + 9 * static_cast<size_t>(i));
     block.setZero();
     visit(x.segment<3>(3 * i), [&](double s, const Eigen::Vector3d& normal) {

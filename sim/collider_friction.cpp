@@ -42,7 +42,7 @@ class ColliderFriction final : public EnergyTerm {
   }
 
   double value(const Eigen::VectorXd& v) const override {
-    return parallel_sum(vertices(), [&](int i) {
+    return parallel_sum(vertices(), Work::kRow, [&](int i) {
       double sum = 0;
       visit(i, [&](const Touch& touch) {
         const double u = slip(touch, v, i).norm(), e = slip_speed_;
@@ -53,7 +53,7 @@ class ColliderFriction final : public EnergyTerm {
   }
 
   void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override {
-    parallel_for(vertices(), [&](int i) {
+    parallel_for(vertices(), Work::kRow, [&](int i) {
       visit(i, [&](const Touch& touch) {
         const Eigen::Vector3d u = slip(touch, v, i);
         gradient.segment<3>(3 * i) += touch.limit * over_speed(u.norm()) * u;
@@ -67,7 +67,7 @@ class ColliderFriction final : public EnergyTerm {
   // branch, u^2/slip_speed, instead: they end up in it, and if they should slip after all, Newton's method leaves it
   // monotonically (f' is concave).
   void element_hessians(const Eigen::VectorXd& v, double scale, Definiteness, double* blocks) const override {
-    parallel_for(vertices(), [&](int i) {
+    parallel_for(vertices(), Work::kRow, [&](int i) {
       Eigen::Map<Eigen::Matrix3d> block(blocks + 9 * static_cast<size_t>(i));
       block.setZero();
       visit(i, [&](const Touch& touch) {
@@ -103,7 +103,7 @@ class ColliderFriction final : public EnergyTerm {
   }
 
   void add_hardened_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override {
-    parallel_for(vertices(), [&](int i) {
+    parallel_for(vertices(), Work::kRow, [&](int i) {
       visit(i, [&](const Touch& touch) {
         if (!touch.stuck) return;
         const Eigen::Vector3d u = slip(touch, v, i);

@@ -13,16 +13,33 @@ namespace {
 
 double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b, int first = 0, int count = -1) {
   if (count < 0) count = static_cast<int>(a.size()) - first;
-  return parallel_sum(count, [&](int i) { return a(first + i) * b(first + i); });
+  return parallel_sum(count, Work::kVector, [&](int i) { return a(first + i) * b(first + i); });
 }
 
-bool within(const Eigen::VectorXd& r, const LinearTargets& targets) {
-  for (size_t b = 0; b < targets.bodies.size(); ++b) {
-    const BodyRange& body = targets.bodies[b];
-    const double squared = dot(r, r, 3 * body.first, 3 * body.count);
-    if (!(squared <= targets.residual[b] * targets.residual[b])) return false;
-  }
-  return true;
+/// Block rows [first, first + count) of one body, worked on by one thread in one go: an iteration makes three passes
+/// over the vectors instead of one for each operation.
+struct Chunk {
+  int first, count;
+  size_t body;
+};
+
+std::vector<Chunk> chunks_of(std::span<const BodyRange> bodies, int rows) {
+  constexpr int kRows = 512;
+  std::vector<Chunk> chunks;
+  const auto cut = [&](int first, int count, size_t body) {
+    for (int i = 0; i < count; i += kRows) chunks.push_back({first + i, std::min(kRows, count - i), body});
+  };
+  for (size_t b = 0; b < bodies.size(); ++b) cut(bodies[b].first, bodies[b].count, b);
+  if (bodies.empty()) cut(0, rows, 0);
+  return chunks;
+}
+
+/// Calls body(c, chunk); in parallel if there is enough to do.
+template <class Body>
+void for_chunks(const std::vector<Chunk>& chunks, int rows, const Body& body) {
+  const int n = static_cast<int>(chunks.size());
+#pragma omp parallel for schedule(static) if (rows >= static_cast <int>(Work::kRow))
+  for (int c = 0; c < n; ++c) body(static_cast<size_t>(c), chunks[static_cast<size_t>(c)]);
 }
 
 }  // namespace
@@ -30,7 +47,7 @@ bool within(const Eigen::VectorXd& r, const LinearTargets& targets) {
 void ConjugateGradientSolver::factorize(const BlockMatrix& A) {
   A_ = &A;
   inverse_diagonal_.resize(9 * static_cast<size_t>(A.rows()));
-  parallel_for(A.rows(), [&](int i) {
+  parallel_for(A.rows(), Work::kRow, [&](int i) {
     Eigen::Map<Eigen::Matrix3d> inverse(inverse_diagonal_.data() + 9 * static_cast<size_t>(i));
     inverse = A.block(A.diagonal[static_cast<size_t>(i)]).inverse();
   });
@@ -41,41 +58,74 @@ LinearReport ConjugateGradientSolver::solve(const Eigen::VectorXd& b, const Line
   LinearReport report;
   report.chosen = "cg";
   const int n = A_->rows();
-  const auto precondition = [&] {
-    parallel_for(n, [&](int i) {
-      const Eigen::Map<const Eigen::Matrix3d> inverse(inverse_diagonal_.data() + 9 * static_cast<size_t>(i));
-      z_.segment<3>(3 * i).noalias() = inverse * r_.segment<3>(3 * i);
-    });
-  };
+  const std::vector<Chunk> chunks = chunks_of(targets.bodies, n);
+  std::vector<double> rz_of(chunks.size()), rr_of(chunks.size()), pAp_of(chunks.size());
+  std::vector<double> rr(std::max<size_t>(1, targets.bodies.size()));
   x.setZero(b.size());
   r_ = b;
   z_.resize(b.size());
-  precondition();
+  Ap_.resize(b.size());
+
+  // z = P^-1 r, r . z and r . r of a chunk
+  const auto precondition = [&](size_t c, const Chunk& chunk) {
+    double rz = 0, squared = 0;
+    for (int i = chunk.first; i < chunk.first + chunk.count; ++i) {
+      const Eigen::Map<const Eigen::Matrix3d> inverse(inverse_diagonal_.data() + 9 * static_cast<size_t>(i));
+      const Eigen::Vector3d r = r_.segment<3>(3 * i);
+      const Eigen::Vector3d z = inverse * r;
+      z_.segment<3>(3 * i) = z;
+      rz += r.dot(z);
+      squared += r.squaredNorm();
+    }
+    rz_of[c] = rz;
+    rr_of[c] = squared;
+  };
+  const auto sum = [](const std::vector<double>& parts) {
+    double total = 0;
+    for (double part : parts) total += part;
+    return total;
+  };
+  const auto within = [&] {
+    std::fill(rr.begin(), rr.end(), 0.0);
+    for (size_t c = 0; c < chunks.size(); ++c) rr[chunks[c].body] += rr_of[c];
+    for (size_t body = 0; body < targets.residual.size(); ++body)
+      if (!(rr[body] <= targets.residual[body] * targets.residual[body])) return false;
+    return true;
+  };
+
+  for_chunks(chunks, n, precondition);
   p_ = z_;
-  double rz = dot(r_, z_);
+  double rz = sum(rz_of);
   const long limit = max_iterations_ > 0 ? max_iterations_ : std::max(1000L, 10L * b.size());
-  while (!within(r_, targets)) {
+  while (!within()) {
     if (report.iterations >= limit) {
       report.reason = "conjugate gradients did not converge";
       return report;
     }
     ++report.iterations;
-    A_->multiply(p_, Ap_);
-    const double pAp = dot(p_, Ap_);
+    for_chunks(chunks, n, [&](size_t c, const Chunk& chunk) {
+      A_->multiply_rows(chunk.first, chunk.count, p_, Ap_);
+      pAp_of[c] = p_.segment(3 * chunk.first, 3 * chunk.count).dot(Ap_.segment(3 * chunk.first, 3 * chunk.count));
+    });
+    const double pAp = sum(pAp_of);
     if (!(pAp > 0)) {
       report.reason = "the matrix is not positive definite";
       return report;
     }
     const double alpha = rz / pAp;
-    parallel_for(n, [&](int i) {
-      x.segment<3>(3 * i) += alpha * p_.segment<3>(3 * i);
-      r_.segment<3>(3 * i) -= alpha * Ap_.segment<3>(3 * i);
+    for_chunks(chunks, n, [&](size_t c, const Chunk& chunk) {
+      const int first = 3 * chunk.first, count = 3 * chunk.count;
+      x.segment(first, count) += alpha * p_.segment(first, count);
+      r_.segment(first, count) -= alpha * Ap_.segment(first, count);
+      precondition(c, chunk);
     });
-    precondition();
-    const double next = dot(r_, z_);
+    const double next = sum(rz_of);
     const double beta = next / rz;
     rz = next;
-    parallel_for(n, [&](int i) { p_.segment<3>(3 * i) = z_.segment<3>(3 * i) + beta * p_.segment<3>(3 * i); });
+    for_chunks(chunks, n, [&](size_t, const Chunk& chunk) {
+      const int first = 3 * chunk.first, count = 3 * chunk.count;
+      p_.segment(first, count) = z_.segment(first, count) + beta * p_.segment(first, count);
+    });
   }
   report.ok = true;
   if (targets.positions) correct_rigid_modes(b, targets, x);

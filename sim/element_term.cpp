@@ -23,7 +23,7 @@ VertexSlots::VertexSlots(std::span<const int> stencils) : slots_(stencils.size()
 }
 
 void VertexSlots::add(const std::vector<double>& slots, Eigen::VectorXd& target) const {
-  parallel_for(static_cast<int>(vertices_.size()), [&](int i) {
+  parallel_for(static_cast<int>(vertices_.size()), Work::kRow, [&](int i) {
     const auto k = static_cast<size_t>(i);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int s = first_[k]; s < first_[k + 1]; ++s)

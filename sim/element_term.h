@@ -57,11 +57,11 @@ class ElementTerm final : public EnergyTerm {
   }
 
   double value(const Eigen::VectorXd& q) const override {
-    return parallel_sum(elements(), [&](int e) { return kernel_.energy(e, gather(q, e)); });
+    return parallel_sum(elements(), Work::kRow, [&](int e) { return kernel_.energy(e, gather(q, e)); });
   }
 
   void add_gradient(const Eigen::VectorXd& q, Eigen::VectorXd& gradient) const override {
-    parallel_for(elements(), [&](int e) {
+    parallel_for(elements(), Work::kRow, [&](int e) {
       Corners<K> g;
       kernel_.gradient(e, gather(q, e), g);
       Eigen::Map<Corners<K>>(gradient_slots_.data() + static_cast<size_t>(e) * 3 * K) = g;
@@ -75,7 +75,7 @@ class ElementTerm final : public EnergyTerm {
 
   void element_hessians(const Eigen::VectorXd& q, double scale, Definiteness definiteness,
                         double* blocks) const override {
-    parallel_for(elements(), [&](int e) {
+    parallel_for(elements(), Work::kElement, [&](int e) {
       ElementHessian<K> hessian;
       kernel_.hessian(e, gather(q, e), definiteness, hessian);
       double* out = blocks + static_cast<size_t>(e) * hessian_doubles(K);

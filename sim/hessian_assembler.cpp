@@ -111,7 +111,7 @@ void HessianAssembler::assemble(std::span<const ScaledTerm> terms, const Eigen::
     matrix = pattern_;
     matrix.values.resize(pattern_.column.size() * 9);
   }
-  parallel_for(static_cast<int>(upper_.size()), [&](int b) {
+  parallel_for(static_cast<int>(upper_.size()), Work::kRow, [&](int b) {
     const auto k = static_cast<size_t>(b);
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (size_t g = gather_start_[k]; g < gather_start_[k + 1]; ++g) {

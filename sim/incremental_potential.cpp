@@ -50,7 +50,7 @@ void IncrementalPotential::set_velocity(const Eigen::VectorXd& y) {
 }
 
 double IncrementalPotential::value(const Eigen::VectorXd& y, StepReport& report) {
-  double phi = 0.5 * parallel_sum(model_.vertices(), [&](int i) {
+  double phi = 0.5 * parallel_sum(model_.vertices(), Work::kVector, [&](int i) {
                  return model_.masses(i) * (y.segment<3>(3 * i) - stage_.y_tilde.segment<3>(3 * i)).squaredNorm();
                });
   for (const auto& term : model_.potentials) {
@@ -77,7 +77,7 @@ void IncrementalPotential::gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g
     term->add_gradient(velocity_, g);
   }
   const Stopwatch watch(report.seconds.gradient);
-  parallel_for(model_.vertices(), [&](int i) {
+  parallel_for(model_.vertices(), Work::kVector, [&](int i) {
     g.segment<3>(3 * i) =
         stage_.beta * g.segment<3>(3 * i) + model_.masses(i) * (y.segment<3>(3 * i) - stage_.y_tilde.segment<3>(3 * i));
   });

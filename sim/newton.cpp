@@ -24,7 +24,7 @@ std::vector<double> body_norms(const Model& model, const Eigen::VectorXd& g) {
   std::vector<double> norms;
   norms.reserve(model.bodies.size());
   for (const BodyRange& b : model.bodies) {
-    const double squared = parallel_sum(3 * b.count, [&](int i) {
+    const double squared = parallel_sum(3 * b.count, Work::kVector, [&](int i) {
       const double v = g(3 * b.first + i);
       return v * v;
     });
@@ -62,12 +62,12 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
     const BodyRange& body = model_.bodies[b];
     const double beta = phi_.stage().beta;
     const auto diagonal = [&](int i) { return model_.masses(i) + beta * phi_.stiffness()(i); };
-    const double squared = parallel_sum(body.count, [&](int k) {
+    const double squared = parallel_sum(body.count, Work::kVector, [&](int k) {
       const int i = body.first + k;
       const double floor = diagonal(i) * y.segment<3>(3 * i).norm();
       return floor * floor;
     });
-    phi_rounding += kRounding * parallel_sum(body.count, [&](int k) {
+    phi_rounding += kRounding * parallel_sum(body.count, Work::kVector, [&](int k) {
                       const int i = body.first + k;
                       return diagonal(i) * y.segment<3>(3 * i).squaredNorm();
                     });

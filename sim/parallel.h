@@ -6,13 +6,18 @@
 
 namespace softreel::sim {
 
-/// Loops shorter than this run on the calling thread: waking the others costs more than the work.
-inline constexpr int kSerialBelow = 512;
+/// Shorter loops run on the calling thread: waking the others costs some microseconds, and far more where other
+/// programs hold the processors.
+enum class Work : int {
+  kElement = 128,  ///< hundreds of nanoseconds each: an element's Hessian
+  kRow = 1024,     ///< tens of nanoseconds each: a row of a matrix, an element's energy
+  kVector = 8192,  ///< some nanoseconds each: an entry of a vector
+};
 
 /// Calls body(i) for i in [0, n); body must write only what belongs to i.
 template <class Body>
-void parallel_for(int n, const Body& body) {
-  if (n < kSerialBelow) {
+void parallel_for(int n, Work work, const Body& body) {
+  if (n < static_cast<int>(work)) {
     for (int i = 0; i < n; ++i) body(i);
     return;
   }
@@ -22,7 +27,7 @@ void parallel_for(int n, const Body& body) {
 
 /// Sum of body(i) over [0, n), the same bits for any number of threads.
 template <class Body>
-double parallel_sum(int n, const Body& body) {
+double parallel_sum(int n, Work work, const Body& body) {
   constexpr int kChunk = 1024;
   const int chunks = (n + kChunk - 1) / kChunk;
   auto chunk_sum = [&](int c) {
@@ -31,7 +36,11 @@ double parallel_sum(int n, const Body& body) {
     for (int i = c * kChunk; i < end; ++i) sum += body(i);
     return sum;
   };
-  if (chunks <= 1) return n > 0 ? chunk_sum(0) : 0.0;
+  if (n < static_cast<int>(work) || chunks < 2) {
+    double total = 0;
+    for (int c = 0; c < chunks; ++c) total += chunk_sum(c);
+    return total;
+  }
   std::vector<double> sums(static_cast<size_t>(chunks));
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) sums[static_cast<size_t>(c)] = chunk_sum(c);

@@ -173,7 +173,7 @@ void Simulation::explicit_step(double h, StepReport& report) {
       term->add_gradient(at.x, a);
     }
     for (const auto& term : model_.dissipations) term->add_gradient(at.v, a);
-    parallel_for(model_.vertices(), [&](int i) { a.segment<3>(3 * i) /= -model_.masses(i); });
+    parallel_for(model_.vertices(), Work::kVector, [&](int i) { a.segment<3>(3 * i) /= -model_.masses(i); });
     pins_.zero(a);
   };
   const Eigen::VectorXd x = state_.x;
@@ -189,7 +189,7 @@ void Simulation::explicit_step(double h, StepReport& report) {
 
 Energies Simulation::energies() const {
   Energies e;
-  e.kinetic = 0.5 * parallel_sum(model_.vertices(),
+  e.kinetic = 0.5 * parallel_sum(model_.vertices(), Work::kVector,
                                  [&](int i) { return model_.masses(i) * state_.v.segment<3>(3 * i).squaredNorm(); });
   for (const auto& term : model_.potentials) {
     const double value = term->value(state_.x);

@@ -28,7 +28,7 @@ class StiffnessDamping final : public EnergyTerm {
   }
 
   double value(const Eigen::VectorXd& v) const override {
-    return 0.5 * parallel_sum(elements_, [&](int e) {
+    return 0.5 * parallel_sum(elements_, Work::kRow, [&](int e) {
              double sum = 0;
              for (int a = 0; a < k_; ++a) sum += velocity(v, e, a).dot(force(v, e, a));
              return sum;
@@ -36,7 +36,7 @@ class StiffnessDamping final : public EnergyTerm {
   }
 
   void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override {
-    parallel_for(elements_, [&](int e) {
+    parallel_for(elements_, Work::kRow, [&](int e) {
       for (int a = 0; a < k_; ++a)
         Eigen::Map<Eigen::Vector3d>(gradient_slots_.data() + 3 * static_cast<size_t>(e * k_ + a)) = force(v, e, a);
     });
@@ -44,7 +44,8 @@ class StiffnessDamping final : public EnergyTerm {
   }
 
   void element_hessians(const Eigen::VectorXd&, double scale, Definiteness, double* blocks) const override {
-    parallel_for(static_cast<int>(blocks_.size()), [&](int i) { blocks[i] = scale * blocks_[static_cast<size_t>(i)]; });
+    parallel_for(static_cast<int>(blocks_.size()), Work::kVector,
+                 [&](int i) { blocks[i] = scale * blocks_[static_cast<size_t>(i)]; });
   }
 
  private:
