@@ -1,23 +1,24 @@
 #include "app/clip_run.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <chrono>
 #include <cstdlib>
 
 #include "app/frame_range.h"
 #include "app/hashes.h"
+#include "app/interrupt.h"
+#include "app/output_check.h"
 #include "app/progress.h"
-#include "assets/atomic_file.h"
 #include "assets/error.h"
 #include "assets/scene_reader.h"
+#include "sim/parallel.h"
 
 namespace softreel::app {
 
 void use_threads(int threads) {
   if (threads <= 0) return;
-  omp_set_num_threads(threads);
+  sim::set_threads(threads);
   setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
 }
 
@@ -26,9 +27,12 @@ ClipPlan plan_clip(const ClipArguments& a) {
   assets::Scene scene = assets::read_scene(a.scene, a.overrides);
   assets::check_assets(scene);
   std::vector<int> frames = parse_frames(a.frames, scene.time.frames());
-  const std::filesystem::path output =
-      a.output.empty() ? std::filesystem::path("out") / std::filesystem::path(a.scene).stem() : std::filesystem::path(a.output);
-  assets::make_folders(output);
+  const std::filesystem::path output = a.output.empty()
+                                           ? std::filesystem::path("out") / std::filesystem::path(a.scene).stem()
+                                           : std::filesystem::path(a.output);
+  check_output_folder(output);
+  if (!a.stats.empty()) check_output_file(a.stats);
+  promise_to_go_on();
   const std::string hash = simulation_hash(scene);
   ClipPlan plan{std::move(scene), output, std::move(frames), ClipCache(output / "cache", hash), {}};
   plan.figures.scene = a.scene;

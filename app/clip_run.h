@@ -20,7 +20,7 @@ struct ClipPlan {
   RunFigures figures;
 };
 
-/// Reads and checks the scene, makes the output folder (so that an unwritable one is found at once), hashes.
+/// Reads and checks the scene, makes the output folder (what cannot be written is found at once), hashes.
 ClipPlan plan_clip(const ClipArguments& arguments);
 
 /// Loads the shapes and simulates up to `last`. Fills plan.figures.

@@ -89,6 +89,7 @@ int compare_folders(const CompareArguments& a) {
   if (!a.difference.empty()) assets::make_folders(a.difference);
   const bool strict = a.tolerance == "same";
   int bad = 0;
+  std::size_t total = references.size();
   std::optional<Judged> worst;
   std::string worst_name;
   for (const std::string& name : references) {
@@ -114,23 +115,25 @@ int compare_folders(const CompareArguments& a) {
     if (!std::binary_search(references.begin(), references.end(), name)) {
       fmt::print("{}: has no reference in {}\n", name, a.reference);
       ++bad;
+      ++total;
     }
   if (worst) fmt::print("worst: {}: {}\n", worst_name, describe(*worst));
-  fmt::print("{} of {} frames differ\n", bad, std::max(references.size(), actuals.size()));
+  fmt::print("{} of {} frames differ\n", bad, total);
   return bad == 0 ? kDone : kAnswerIsNo;
 }
 
 }  // namespace
 
 int run_compare(const CompareArguments& a) {
+  std::error_code unreadable;  // of a path that cannot even be asked about: not there, for us
   for (const std::string& path : {a.reference, a.actual})
-    if (!fs::exists(path)) {
+    if (!fs::exists(path, unreadable)) {
       // A missing reference is an answer (no), a missing actual picture too: nothing there is not the same.
       fmt::print("{}: there is no such file or folder\n", path);
       return kAnswerIsNo;
     }
-  const bool folder = fs::is_directory(a.reference);
-  if (folder != fs::is_directory(a.actual))
+  const bool folder = fs::is_directory(a.reference, unreadable);
+  if (folder != fs::is_directory(a.actual, unreadable))
     throw UserError(ErrorKind::kUsage, "compare takes two pictures or two folders, not one of each");
   if (folder) return compare_folders(a);
   const Judged j = judge(a.reference, a.actual, a.tolerance == "same", a.difference);

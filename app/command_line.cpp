@@ -1,10 +1,13 @@
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
-#include <cstdio>
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 
 #include "app/arguments.h"
 #include "app/exit_code.h"
+#include "assets/error.h"
+#include "assets/scene_nearest.h"
 
 namespace softreel::app {
 namespace {
@@ -38,6 +41,18 @@ void add_clip(CLI::App& command, ClipArguments& a) {
   add_common(command, a);
 }
 
+/// Before CLI11 says that a command is missing, which is not what is wrong with a misspelled one.
+void refuse_unknown_command(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (word.starts_with('-') || std::find(names.begin(), names.end(), word) != names.end()) return;
+  const std::string nearest = assets::nearest_name(word, names);
+  throw assets::UserError(
+      assets::ErrorKind::kUsage,
+      fmt::format("there is no command \"{}\"{}; the commands are: {}", word,
+                  nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest), fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -69,7 +84,7 @@ int run_command_line(int argc, char** argv) {
   command->add_option("--count", turntable.count, "pictures in one turn")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--size", turntable.size, "width and height [px]")->expected(2)->check(CLI::Range(1, 16384));
+  command->add_option("--size", turntable.size, "width and height [px]")->expected(2)->check(CLI::Range(1, 8192));
   command->add_option("--samples", turntable.samples, "passes averaged into one picture")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
@@ -126,6 +141,7 @@ int run_command_line(int argc, char** argv) {
   add_common(*command, tets);
   command->callback([&] { run = [&] { return run_tetrahedralize(tets); }; });
 
+  if (argc > 1) refuse_unknown_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

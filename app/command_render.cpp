@@ -55,7 +55,8 @@ void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
     plan.figures.per_frame.push_back(data.figures);
     if (whole) add_frame(plan.scene, shapes, data.state, extent);
   }
-  if (!whole) add_frame(plan.scene, shapes, must_read(plan.cache, frames.front()).state, extent);
+  // Frame 1 whichever frames are asked for, so that each looks the same in every selection.
+  if (!whole) add_frame(plan.scene, shapes, must_read(plan.cache, 1).state, extent);
   Stage stage(plan.scene, shapes, extent);
   render::FrameWriter writer(1);
   {
@@ -74,8 +75,17 @@ void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
   }
   writer.finish();
   plan.figures.render = since(start);
+  plan.figures.counters = stage.renderer().counters();
   plan.figures.encode = writer.encode_seconds();
   stop_if_interrupted();
+}
+
+/// They are not ours to delete, but whoever makes a video of the folder should know.
+void note_frames_of_a_longer_clip(const ClipPlan& plan, bool quiet) {
+  const std::string next = frame_file_name(plan.scene.time.frames() + 1);
+  std::error_code ignored;
+  if (std::filesystem::exists(plan.output / next, ignored))
+    say(quiet, fmt::format("note: {} (and what follows it) is of a longer clip and was left alone", next));
 }
 
 }  // namespace
@@ -100,6 +110,7 @@ int run_render(const ClipArguments& a) {
     say(a.quiet, "every frame is up to date");
   else
     say(a.quiet, summary(plan.figures));
+  note_frames_of_a_longer_clip(plan, a.quiet);
   if (!a.quiet) {
     fmt::print("{}\n", (plan.output / frame_file_name(plan.frames.front())).string());
     if (plan.frames.size() > 1) fmt::print("{}\n", files.back().string());

@@ -5,6 +5,7 @@
 #include "app/clip_run.h"
 #include "app/exit_code.h"
 #include "app/interrupt.h"
+#include "app/output_check.h"
 #include "assets/surface_import.h"
 #include "assets/tet_file.h"
 #include "assets/tet_quality.h"
@@ -14,6 +15,8 @@ namespace softreel::app {
 
 int run_tetrahedralize(const TetrahedralizeArguments& a) {
   use_threads(a.threads);
+  assets::check_tet_output(a.output);
+  check_output_file(a.output);
   const assets::MeshOptions mesh{a.unit, a.up[0], a.size};
   sim::TetMesh tets;
   if (assets::is_tet_file(a.mesh)) {

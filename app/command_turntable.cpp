@@ -10,9 +10,9 @@
 #include "app/exit_code.h"
 #include "app/frame_range.h"
 #include "app/interrupt.h"
+#include "app/output_check.h"
 #include "app/progress.h"
 #include "app/video.h"
-#include "assets/atomic_file.h"
 #include "assets/error.h"
 #include "assets/scene_colors.h"
 #include "assets/surface_import.h"
@@ -51,7 +51,7 @@ int run_turntable(const TurntableArguments& a) {
           assets::ErrorKind::kUsage,
           fmt::format("--color {}: expected \"#rrggbb\" or a colour's name such as \"red\"", a.color));
   }
-  assets::make_folders(output);
+  check_output_folder(output);
   const assets::ImportedSurface surface = load(a);
   for (const std::string& name : surface.missing_textures)
     say(a.quiet, fmt::format("note: texture '{}' was not found; drawn without", name));

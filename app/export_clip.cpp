@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <memory>
+#include <set>
+#include <string_view>
 
 #include "app/interrupt.h"
 #include "assets/atomic_file.h"
@@ -16,8 +19,21 @@ namespace {
 
 using sim::Vec3;
 
+/// A body's name as the beginning of a file's: no folders, nothing that other programs stumble over.
+std::string file_stem(const std::string& body, std::set<std::string>& taken) {
+  constexpr std::size_t kLongest = 100;
+  constexpr std::string_view kAllowed = "-_+.";
+  std::string stem = body.substr(0, kLongest);
+  for (char& c : stem)
+    if (static_cast<unsigned char>(c) < 128 && !std::isalnum(c) && kAllowed.find(c) == kAllowed.npos) c = '_';
+  if (stem.empty() || stem[0] == '.' || stem[0] == '-') stem = "_" + stem;
+  const std::string wanted = stem;
+  for (int n = 2; !taken.insert(stem).second; ++n) stem = fmt::format("{}_{}", wanted, n);
+  return stem;
+}
+
 struct ExportBody {
-  std::string name;
+  std::string name;          // of its files
   int first = 0, count = 0;  // vertices of the state
   int surface_count = 0;     // of them, those that the surface uses come first
   const std::vector<sim::Triangle>* triangles = nullptr;
@@ -26,18 +42,19 @@ struct ExportBody {
 
 std::vector<ExportBody> bodies_of(const assets::Scene& scene, const Shapes& shapes) {
   std::vector<ExportBody> bodies;
+  std::set<std::string> taken;
   int first = 0;
   for (size_t i = 0; i < scene.soft.size(); ++i) {
     const SolidShape& s = shapes.soft[i];
     const int count = static_cast<int>(s.rest.vertices.size());
-    bodies.push_back(
-        {scene.soft[i].name, first, count, s.drawn.position_count, &s.drawn.surface.welded.triangles, &s.rest.tets});
+    bodies.push_back({file_stem(scene.soft[i].name, taken), first, count, s.drawn.position_count,
+                      &s.drawn.surface.welded.triangles, &s.rest.tets});
     first += count;
   }
   for (size_t i = 0; i < scene.cloth.size(); ++i) {
     const ClothShape& c = shapes.cloth[i];
     const int count = static_cast<int>(c.rest.vertices.size());
-    bodies.push_back({scene.cloth[i].name, first, count, count, &c.rest.triangles, nullptr});
+    bodies.push_back({file_stem(scene.cloth[i].name, taken), first, count, count, &c.rest.triangles, nullptr});
     first += count;
   }
   return bodies;

@@ -3,15 +3,14 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <stdexcept>
+#include <system_error>
 
 extern char** environ;
 
@@ -32,11 +31,9 @@ std::string find_program(const std::string& name) {
 
 PipeTo::PipeTo(const std::vector<std::string>& arguments) {
   int pipe_ends[2];
-  char name[] = "/tmp/softreel-XXXXXX";
-  errors_ = mkostemp(name, O_CLOEXEC);
-  if (errors_ < 0) throw std::runtime_error(std::string("no temporary file: ") + std::strerror(errno));
-  unlink(name);
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("no pipe: ") + std::strerror(errno));
+  errors_ = memfd_create("stderr", MFD_CLOEXEC);
+  if (errors_ < 0 || pipe2(pipe_ends, O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::system_category(), "no pipe");
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, pipe_ends[0], STDIN_FILENO);
@@ -57,7 +54,7 @@ PipeTo::PipeTo(const std::vector<std::string>& arguments) {
   input_ = pipe_ends[1];
   if (error != 0) {
     pid_ = -1;
-    throw std::runtime_error(arguments[0] + " does not start: " + std::strerror(error));
+    throw std::system_error(error, std::system_category(), arguments[0] + " does not start");
   }
 }
 

@@ -11,7 +11,7 @@ std::string find_program(const std::string& name);
 /// A running program whose standard input we write.
 class PipeTo {
  public:
-  /// Throws std::runtime_error when it cannot be started. Its standard output is dropped; what it says on standard
+  /// Throws std::system_error when it cannot be started. Its standard output is dropped; what it says on standard
   /// error is kept for messages.
   explicit PipeTo(const std::vector<std::string>& arguments);
   /// Kills it if it still runs.

@@ -1,7 +1,13 @@
 #include "app/hashes.h"
 
+#include <algorithm>
+#include <filesystem>
+
+#include "app/stage.h"
+#include "assets/atomic_file.h"
 #include "assets/content_hash.h"
 #include "assets/scene_canonical.h"
+#include "assets/side_files.h"
 
 namespace softreel::app {
 namespace {
@@ -10,9 +16,35 @@ namespace {
 constexpr int kSimulationVersion = 1;
 constexpr int kPictureVersion = 1;
 
+/// The lines of an OBJ's material file that name materials: they decide how the importer cuts the mesh up, and so the
+/// order of its vertices.
+std::string material_names(const std::string& mtl) {
+  std::string names;
+  for (std::size_t at = 0; at < mtl.size();) {
+    const std::size_t end = std::min(mtl.find('\n', at), mtl.size());
+    const std::string line = mtl.substr(at, end - at);
+    if (line.find("newmtl") != std::string::npos) names += line + '\n';
+    at = end + 1;
+  }
+  return names;
+}
+
+void add_side_files(const std::filesystem::path& mesh, bool physics, assets::ContentHasher& hasher) {
+  for (const assets::SideFile& side : assets::side_files(mesh)) {
+    const std::string name = side.path.filename().string();
+    if (side.physics == physics)
+      hasher.add(name).add(assets::hash_file(side.path));
+    else if (physics && side.path.extension() == ".mtl")
+      hasher.add(name).add(material_names(assets::read_file(side.path)));
+  }
+}
+
 void add_assets(const assets::Scene& scene, bool physics, assets::ContentHasher& hasher) {
-  for (const assets::AssetUse& use : scene.assets)
-    if (use.physics == physics) hasher.add(use.key).add(assets::hash_file(scene.asset_path(use.path)));
+  for (const assets::AssetUse& use : scene.assets) {
+    const std::filesystem::path file = scene.asset_path(use.path);
+    if (use.physics == physics) hasher.add(use.key).add(assets::hash_file(file));
+    if (use.physics) add_side_files(file, physics, hasher);
+  }
 }
 
 }  // namespace
@@ -27,6 +59,7 @@ std::string simulation_hash(const assets::Scene& scene) {
 std::string frame_hash(const assets::Scene& scene, const std::string& simulation_hash) {
   assets::ContentHasher hasher;
   hasher.add(kPictureVersion).add(simulation_hash).add(assets::canonical_picture(scene));
+  if (needs_whole_clip(scene)) hasher.add(scene.time.frames());  // a longer clip may be framed from further away
   add_assets(scene, false, hasher);
   return hasher.hex();
 }

@@ -12,6 +12,12 @@ namespace {
 constexpr double kRedraw = 0.1;     // [s] between two drawings of the bar
 constexpr double kPlainLine = 5.0;  // [s] between two plain lines
 
+// Remarks that nobody can read (stderr is full or closed) must not end the work: no fmt::print, which throws.
+void put(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 std::string clock_text(double seconds) {
   const auto s = static_cast<long>(seconds + 0.5);
   return s < 3600 ? fmt::format("{}:{:02d}", s / 60, s % 60)
@@ -49,16 +55,15 @@ void Progress::draw(double seconds) const {
   if (terminal_) {
     constexpr int kWidth = 28;
     const int full = std::clamp(kWidth * done_ / total_, 0, kWidth);
-    fmt::print(stderr, "\r{:<10}[{}{}] {}   ", what_, std::string(static_cast<size_t>(full), '#'),
-               std::string(static_cast<size_t>(kWidth - full), '.'), figures);
+    put(fmt::format("\r{:<10}[{}{}] {}   ", what_, std::string(static_cast<size_t>(full), '#'),
+                    std::string(static_cast<size_t>(kWidth - full), '.'), figures));
   } else {
-    fmt::print(stderr, "{} {}\n", what_, figures);
+    put(fmt::format("{} {}\n", what_, figures));
   }
-  std::fflush(stderr);
 }
 
 void say(bool quiet, const std::string& line) {
-  if (!quiet) fmt::print(stderr, "{}\n", line);
+  if (!quiet) put(line + "\n");
 }
 
 }  // namespace softreel::app

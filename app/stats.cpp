@@ -66,6 +66,17 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
   seconds("simulate_seconds", "solve", s.solve);
   seconds("simulate_seconds", "contact", s.contact);
   seconds("simulate_seconds", "other", run.clip.seconds - s.gradient - s.assemble - s.solve - s.contact);
+  const auto counter = [&](const char* what, std::size_t n) {
+    if (n > 0) j["render_counters"][what] = n;
+  };
+  const render::RenderCounters& c = run.counters;
+  counter("accumulation_buffers", c.accumulation_buffers);
+  counter("shadow_maps", c.shadow_maps);
+  counter("textures", c.textures);
+  counter("mesh_uploads", c.mesh_uploads);
+  counter("passes", c.passes);
+  counter("shadow_passes", c.shadow_passes);
+  counter("draw_calls", c.draw_calls);
   if (run.simulated) j["worst_residual"] = run.clip.total.residual;
   j["peak_memory_bytes"] = peak_memory_bytes();
   for (const char* name : {"kinetic", "elastic", "gravity", "contact", "dissipated"})
@@ -77,7 +88,8 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
     j["energy"]["contact"].push_back(f.energies.contact);
     j["energy"]["dissipated"].push_back(f.energies.dissipated);
   }
-  assets::write_file_atomically(file, j.dump(2) + "\n");
+  // File names may hold any bytes; JSON only UTF-8.
+  assets::write_file_atomically(file, j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 std::string summary(const RunFigures& run) {

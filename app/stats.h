@@ -7,6 +7,7 @@
 #include "app/bill.h"
 #include "app/clip_cache.h"
 #include "app/simulate_clip.h"
+#include "render/counters.h"
 
 namespace softreel::app {
 
@@ -17,6 +18,7 @@ struct RunFigures {
   int frames_asked = 0, frames_rendered = 0, frames_up_to_date = 0;
   bool simulated = false;  ///< a simulation was started in this run
   ClipRun clip;
+  render::RenderCounters counters;
   std::vector<FrameFigures> per_frame;  ///< of the clip's frames that were read, from frame 1
   double load = 0, tetrahedralize = 0, render = 0, encode = 0, total = 0;  ///< [s]
 };

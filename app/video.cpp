@@ -9,6 +9,7 @@
 
 #include "app/external_program.h"
 #include "app/interrupt.h"
+#include "app/output_check.h"
 #include "assets/atomic_file.h"
 #include "assets/error.h"
 
@@ -31,10 +32,10 @@ void check_video(const std::filesystem::path& video) {
     throw UserError(ErrorKind::kInput,
                     "--video needs the program ffmpeg, and there is none in PATH (Debian: apt install "
                     "ffmpeg); without --video the frames are written all the same");
+  check_output_file(video);
 }
 
 void write_video(const std::filesystem::path& video, const std::vector<std::filesystem::path>& frames, double fps) {
-  if (video.has_parent_path()) assets::make_folders(video.parent_path());
   // The temporary name keeps the extension: ffmpeg takes the container from it.
   const std::filesystem::path temporary =
       video.parent_path() / fmt::format(".{}.{}{}", video.stem().string(), getpid(), video.extension().string());
@@ -45,40 +46,16 @@ void write_video(const std::filesystem::path& video, const std::vector<std::file
       std::filesystem::remove(file, ignored);
     }
   } const remove{temporary};
-  std::vector<std::string> arguments = {"ffmpeg",
-                                        "-nostdin",
-                                        "-hide_banner",
-                                        "-loglevel",
-                                        "error",
-                                        "-y",
-                                        "-f",
-                                        "image2pipe",
-                                        "-c:v",
-                                        "png",
-                                        "-framerate",
-                                        fmt::format("{:.10g}", fps),
-                                        "-i",
-                                        "pipe:0",
-                                        "-vf",
-                                        "crop=max(2\\,trunc(iw/2)*2):max(2\\,trunc(ih/2)*2):0:0,scale=out_color_matrix="
-                                        "bt709:out_range=tv,format=yuv420p",
-                                        "-c:v",
-                                        "libx264",
-                                        "-preset",
-                                        "medium",
-                                        "-crf",
-                                        "18",
-                                        "-colorspace",
-                                        "bt709",
-                                        "-color_primaries",
-                                        "bt709",
-                                        "-color_trc",
-                                        "bt709",
-                                        "-color_range",
-                                        "tv",
-                                        "-movflags",
-                                        "+faststart",
-                                        temporary.string()};
+  std::vector<std::string> arguments = {
+      "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f", "image2pipe", "-c:v", "png", "-framerate",
+      fmt::format("{:.10g}", fps), "-i", "pipe:0", "-vf",
+      // The colour planes have half the size: even sides, at least 2.
+      "pad=max(2\\,iw):max(2\\,ih),crop=max(2\\,trunc(iw/2)*2):max(2\\,trunc(ih/2)*2):0:0,scale=out_color_matrix="
+      "bt709:out_range=tv,format=yuv420p",
+      "-c:v", "libx264", "-preset", "medium", "-crf", "18", "-colorspace", "bt709", "-color_primaries", "bt709",
+      "-color_trc", "bt709", "-color_range", "tv", "-movflags", "+faststart",
+      // Without "file:" a colon in the name would be a protocol.
+      "file:" + temporary.string()};
   PipeTo ffmpeg(arguments);
   bool reading = true;
   for (const std::filesystem::path& frame : frames) {

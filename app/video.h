@@ -6,7 +6,7 @@
 namespace softreel::app {
 
 /// Throws UserError (kInput) if there is no ffmpeg, (kUsage) if the file's name has no extension of a video container:
-/// asked before any work is done.
+/// (kOutput) if the file could not be written: asked before any work is done.
 void check_video(const std::filesystem::path& video);
 
 /// Pipes the PNG files, in this order, into ffmpeg: yuv420p, BT.709, faststart; an odd last column or row is left out.

@@ -106,7 +106,16 @@ TetFile read_tet_file(const std::filesystem::path& file, const MeshOptions& opti
   return finish(read_raw_tets(file), file.string(), options);
 }
 
+void check_tet_output(const std::filesystem::path& file) {
+  const std::string ext = extension(file);
+  if (!is_tet_file(file) && ext != ".vtu") {
+    throw UserError(ErrorKind::kUsage, file.string(),
+                    fmt::format("'{}' is no tetrahedral format; these are: .msh, .mesh, .vtu, .node, .ele", ext));
+  }
+}
+
 void write_tet_file(const std::filesystem::path& file, const sim::TetMesh& mesh, bool binary, MshVersion version) {
+  check_tet_output(file);
   const std::string ext = extension(file);
   if (ext == ".msh") {
     write_file_atomically(file, format_gmsh(mesh, binary, version));
@@ -117,9 +126,6 @@ void write_tet_file(const std::filesystem::path& file, const sim::TetMesh& mesh,
   } else if (ext == ".node" || ext == ".ele") {
     write_file_atomically(sibling(file, ".node"), format_tetgen_node(mesh));
     write_file_atomically(sibling(file, ".ele"), format_tetgen_ele(mesh));
-  } else {
-    throw UserError(ErrorKind::kUsage, file.string(),
-                    fmt::format("'{}' is no tetrahedral format; these are: .msh, .mesh, .vtu, .node, .ele", ext));
   }
 }
 

@@ -26,6 +26,9 @@ TetFile read_tet_file(const std::filesystem::path& file, const MeshOptions& opti
 
 enum class MshVersion { k22, k41 };
 
+/// Throws UserError(kUsage) when `write_tet_file` does not know the extension; for asking before the work.
+void check_tet_output(const std::filesystem::path& file);
+
 /// Writes .msh, .mesh, .vtu (by export_vtu.h), or .node/.ele (both), chosen by the extension; all coordinates round
 /// trip exactly. `binary` and `version` concern .msh. Throws UserError(kUsage) for another extension, kOutput when it
 /// cannot be written.
