@@ -37,9 +37,10 @@ std::vector<Chunk> chunks_of(std::span<const BodyRange> bodies, int rows) {
 /// Calls body(c, chunk); in parallel if there is enough to do.
 template <class Body>
 void for_chunks(const std::vector<Chunk>& chunks, int rows, const Body& body) {
+  const auto one = [&](int c) { body(static_cast<size_t>(c), chunks[static_cast<size_t>(c)]); };
   const int n = static_cast<int>(chunks.size());
-#pragma omp parallel for schedule(static) if (rows >= static_cast <int>(Work::kRow))
-  for (int c = 0; c < n; ++c) body(static_cast<size_t>(c), chunks[static_cast<size_t>(c)]);
+  if (rows >= static_cast<int>(Work::kRow) && threads() > 1) return parallel_tasks(n, one);
+  for (int c = 0; c < n; ++c) one(c);
 }
 
 }  // namespace
