@@ -19,26 +19,31 @@ std::vector<BillItem> bill_of(const Scene& s) {
   };
   const auto count = [](const auto& list, const auto& is) { return std::count_if(list.begin(), list.end(), is); };
 
+  const auto number = [](auto n, const char* one, const char* many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
   const auto surfaces =
       count(s.soft, [](const SoftBody& b) { return !b.mesh.path.empty() && !is_tet_file(b.mesh.path); });
-  add("tetrahedralization (TetGen)", surfaces > 0, fmt::format("{} soft bodies are surfaces", surfaces),
+  add("tetrahedralization (TetGen)", surfaces > 0,
+      number(surfaces, "soft body is a surface", "soft bodies are surfaces"),
       s.soft.empty() ? "there is no soft body" : "every soft body comes as tetrahedra");
-  add("tetrahedral solids", !s.soft.empty(), fmt::format("{} soft bodies", s.soft.size()), "there is no soft body");
+  add("tetrahedral solids", !s.soft.empty(), number(s.soft.size(), "soft body", "soft bodies"),
+      "there is no soft body");
   const auto membranes = count(s.cloth, [](const Cloth& c) { return c.model == ClothModel::kMembrane; });
-  add("membranes", membranes > 0, fmt::format("{} cloths", membranes), "no cloth is a membrane");
+  add("membranes", membranes > 0, number(membranes, "cloth", "cloths"), "no cloth is a membrane");
   const auto bending =
       count(s.cloth, [](const Cloth& c) { return c.model == ClothModel::kMembrane && c.material.bending > 0; });
-  add("bending", bending > 0, fmt::format("{} membranes have a bending stiffness", bending),
+  add("bending", bending > 0, number(bending, "membrane has a bending stiffness", "membranes have a bending stiffness"),
       membranes > 0 ? "material.bending is 0" : "no cloth is a membrane");
   const auto springs = count(s.cloth, [](const Cloth& c) { return c.model == ClothModel::kMassSpring; });
-  add("springs", springs > 0, fmt::format("{} cloths", springs), "no cloth is mass-spring");
+  add("springs", springs > 0, number(springs, "cloth", "cloths"), "no cloth is mass-spring");
   add("gravity", s.gravity.squaredNorm() > 0, fmt::format("{:.4g} m/s^2", s.gravity.norm()), "gravity is zero");
   const bool damped = s.damping.drag + s.damping.alpha + s.damping.beta > 0 ||
                       count(s.cloth, [](const Cloth& c) { return c.spring_damping > 0; }) > 0;
   add("damping", damped, "[damping] or spring_damping is set", "nothing is damped");
   const auto pinned = [](const Body& b) { return !b.pins.empty(); };
   add("pins", count(s.soft, pinned) + count(s.cloth, pinned) > 0, "some vertices are held", "no vertex is held");
-  add("contact with colliders", !s.colliders.empty(), fmt::format("{} colliders", s.colliders.size()),
+  add("contact with colliders", !s.colliders.empty(), number(s.colliders.size(), "collider", "colliders"),
       "there is no collider");
   add("friction", count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0, "some colliders are rough",
       s.colliders.empty() ? "there is no collider" : "every collider's friction is 0");
