@@ -20,9 +20,10 @@ bool orthogonalize(MatrixB& B, MatrixV& V, int i, int j) {
   const double a = B.col(i).squaredNorm();
   const double b = B.col(j).squaredNorm();
   const double c = B.col(i).dot(B.col(j));
-  if (std::abs(c) <= kEpsilon * std::sqrt(a) * std::sqrt(b) || std::abs(c) < kTiny) return false;
+  // B is scaled to entries of at most 1: what underflows here is far below its rounding.
+  if (c * c <= kEpsilon * kEpsilon * a * b || std::abs(c) < kTiny) return false;
   const double zeta = (b - a) / (2.0 * c);
-  const double t = (zeta >= 0 ? 1.0 : -1.0) / (std::abs(zeta) + std::hypot(1.0, zeta));
+  const double t = (zeta >= 0 ? 1.0 : -1.0) / (std::abs(zeta) + std::sqrt(1.0 + zeta * zeta));
   const double cosine = 1.0 / std::sqrt(1.0 + t * t);
   const double sine = cosine * t;
   const auto rotate = [&](auto& M) {
