@@ -14,7 +14,7 @@ packages=$(awk -v group="$group" '$1 == group { print $2 }' "$list")
 [ -n "$packages" ] || fail "there is no group '$group' in $list"
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   fail "this script knows Debian 12 and its relatives only, and there is no apt-get here." \
-       "The packages it would install:" $packages \
+       "The packages it would install: $(echo $packages)" \
        "With your system's names for them in place, build by hand: cmake --preset release && cmake --build --preset release"
 fi
 
@@ -33,7 +33,7 @@ if [ "$(id -u)" = 0 ]; then
 elif command -v sudo >/dev/null; then
   as_root=sudo
 else
-  fail "these packages are missing, and installing them takes root or sudo:" $missing \
+  fail "packages are missing, and installing them takes root or sudo." \
        "As root: apt-get install --no-install-recommends$missing"
 fi
 
