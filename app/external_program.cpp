@@ -1,6 +1,7 @@
 #include "app/external_program.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -11,10 +12,16 @@
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 extern char** environ;
 
 namespace softreel::app {
+namespace {
+
+constexpr int kPatience = 20;  // [ms] between two calls of `check`
+
+}  // namespace
 
 std::string find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
@@ -29,7 +36,7 @@ std::string find_program(const std::string& name) {
   return {};
 }
 
-PipeTo::PipeTo(const std::vector<std::string>& arguments) {
+PipeTo::PipeTo(const std::vector<std::string>& arguments, std::function<void()> check) : check_(std::move(check)) {
   int pipe_ends[2];
   errors_ = memfd_create("stderr", MFD_CLOEXEC);
   if (errors_ < 0 || pipe2(pipe_ends, O_CLOEXEC) != 0)
@@ -52,6 +59,7 @@ PipeTo::PipeTo(const std::vector<std::string>& arguments) {
   posix_spawnattr_destroy(&attributes);
   close(pipe_ends[0]);
   input_ = pipe_ends[1];
+  fcntl(input_, F_SETFL, O_NONBLOCK);  // a program that does not read must not hold us up
   if (error != 0) {
     pid_ = -1;
     throw std::system_error(error, std::system_category(), arguments[0] + " does not start");
@@ -72,6 +80,12 @@ bool PipeTo::write(const void* data, std::size_t bytes) {
   while (bytes > 0) {
     const ssize_t n = ::write(input_, p, bytes);
     if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EAGAIN) {
+      check_();
+      pollfd room{input_, POLLOUT, 0};
+      poll(&room, 1, kPatience);
+      continue;
+    }
     if (n < 0) return false;
     p += n;
     bytes -= static_cast<std::size_t>(n);
@@ -83,7 +97,9 @@ int PipeTo::finish() {
   if (input_ >= 0) close(input_);
   input_ = -1;
   int status = 0;
-  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  while (waitpid(pid_, &status, WNOHANG) == 0) {
+    check_();
+    poll(nullptr, 0, kPatience);
   }
   pid_ = -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

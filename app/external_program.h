@@ -1,5 +1,6 @@
 #pragma once
 // Other programs, started without a shell.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ class PipeTo {
  public:
   /// Throws std::system_error when it cannot be started. Its standard output is dropped; what it says on standard
   /// error is kept for messages.
-  explicit PipeTo(const std::vector<std::string>& arguments);
+  /// `check` is called again and again while we wait for it; what it throws passes on.
+  PipeTo(const std::vector<std::string>& arguments, std::function<void()> check);
   /// Kills it if it still runs.
   ~PipeTo();
   PipeTo(const PipeTo&) = delete;
@@ -27,6 +29,7 @@ class PipeTo {
   std::string complaint() const;
 
  private:
+  std::function<void()> check_;
   int pid_ = -1, input_ = -1, errors_ = -1;
 };
 

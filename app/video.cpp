@@ -56,7 +56,7 @@ void write_video(const std::filesystem::path& video, const std::vector<std::file
       "-color_trc", "bt709", "-color_range", "tv", "-movflags", "+faststart",
       // Without "file:" a colon in the name would be a protocol.
       "file:" + temporary.string()};
-  PipeTo ffmpeg(arguments);
+  PipeTo ffmpeg(arguments, stop_if_interrupted);
   bool reading = true;
   for (const std::filesystem::path& frame : frames) {
     stop_if_interrupted();

@@ -1,5 +1,5 @@
 // Videos: what ffprobe says of them.
-#include <sys/wait.h>
+#include <signal.h>
 
 #include <cstdio>
 
@@ -125,4 +125,35 @@ TEST_CASE("Names with blanks, colons, quotes, percent signs, umlauts and a leadi
     CHECK(std::filesystem::exists(folder / name / (name + ".mp4")) == has_ffmpeg());
     test::check_only_whole_files(folder / name);
   }
+}
+
+TEST_CASE("An ffmpeg that fails is an error with its words; one that hangs does not hold up Ctrl-C") {
+  test::TempFolder folder;
+  const std::string scene = scene_in(folder), out = (folder / "out").string();
+  REQUIRE(test::run({"render", scene, "-o", out}).code == 0);
+  const auto frames = test::pictures_in(out);
+  const std::vector<std::string> command = {"render", scene, "-o", out, "--video", (folder / "clip.mp4").string()};
+  const auto pretend = [&](const std::string& script) {
+    const auto program = folder.write("ffmpeg", "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  };
+  test::RunOptions options;
+  options.environment = {{"PATH", folder.path().string() + ":/usr/bin:/bin"}};
+  for (const std::string script : {"echo no such encoder >&2; exit 7", "exec <&-; echo no such encoder >&2; exit 7"}) {
+    pretend(script);
+    const test::RunResult failed = test::run(command, options);
+    INFO(failed.err);
+    CHECK(failed.code == 5);
+    CHECK(test::contains(failed.err, "no such encoder"));
+    CHECK(test::contains(failed.err, "exit code 7"));
+  }
+  pretend("touch " + (folder / "started").string() + "; exec sleep 200");
+  test::Running hanging(command, options);
+  REQUIRE(hanging.wait_for([&] { return std::filesystem::exists(folder / "started"); }));
+  hanging.send(SIGINT);
+  const test::RunResult result = hanging.wait();
+  CHECK(result.in_time);
+  CHECK(result.code == 130);
+  CHECK(test::pictures_in(out) == frames);
+  CHECK_FALSE(std::filesystem::exists(folder / "clip.mp4"));
 }
