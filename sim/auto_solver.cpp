@@ -7,10 +7,10 @@ namespace softreel::sim {
 namespace {
 
 // Work in units of one nanosecond on the machine they were measured on (two cores of 2.6 GHz): only their ratio counts.
-constexpr double kPerFlop = 0.05;        // supernodal factorization, one thread
-constexpr double kPerFactorNonzero = 2;  // triangular solves and the copy of the values
-constexpr double kPerBlock = 1.6;        // product with one 3x3 block
-constexpr double kPerRow = 12;           // vector work of an iteration, per block row
+constexpr double kPerFlop = 0.027;        // supernodal factorization, one thread
+constexpr double kPerFactorNonzero = 10;  // its memory traffic, the copy of the values, the triangular solves
+constexpr double kPerBlock = 1.0;         // product with one 3x3 block
+constexpr double kPerRow = 8;             // vector work of an iteration, per block row
 
 // Below this size a direct solve costs less than finding out.
 constexpr int kSmall = 600;

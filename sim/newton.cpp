@@ -56,7 +56,7 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
   phi_.gradient(y, g_, report);
   const std::vector<double> g0 = body_norms(model_, g_);
   std::vector<double> norms = g0;
-  std::vector<double> target(bodies), linear_target(bodies);
+  std::vector<double> floors(bodies), target(bodies), linear_target(bodies);
   double phi_rounding = 0;
   for (size_t b = 0; b < bodies; ++b) {
     const BodyRange& body = model_.bodies[b];
@@ -71,7 +71,8 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
                       const int i = body.first + k;
                       return diagonal(i) * y.segment<3>(3 * i).squaredNorm();
                     });
-    target[b] = std::max(settings_.tolerance * g0[b], kRounding * std::sqrt(squared));
+    floors[b] = kRounding * std::sqrt(squared);
+    target[b] = std::max(settings_.tolerance * g0[b], floors[b]);
   }
   const auto fail = [&](const std::string& why) {
     report.converged = false;
@@ -83,7 +84,8 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
     for (size_t b = 0; b < bodies; ++b) {
       if (!std::isfinite(norms[b])) return fail("forces on '" + model_.bodies[b].name + "' are not finite");
       converged = converged && norms[b] <= target[b];
-      if (norms[b] > target[b] || iteration > 0) worst = std::max(worst, g0[b] > 0 ? norms[b] / g0[b] : 0.0);
+      // Where the floor at rounding decides, there are no forces to compare with.
+      if (target[b] > floors[b]) worst = std::max(worst, norms[b] / g0[b]);
     }
     if (converged) {
       report.residual = std::max(report.residual, worst);
