@@ -54,7 +54,13 @@ sim::Pin make_pin(const assets::Scene& scene, const assets::Body& body, size_t n
         bounds.min().x(), bounds.min().y(), bounds.min().z(), bounds.max().x(), bounds.max().y(), bounds.max().z()));
   mean /= static_cast<double>(result.vertices.size());
   for (size_t a = 0; a < 3; ++a) result.axes[a] = pin.axes[a];
-  if (!pin.motion.empty()) result.motion = sim::Motion(motion_keys(pin.motion), pin.pivot.value_or(mean));
+  if (!pin.motion.empty()) {
+    result.motion = sim::Motion(motion_keys(pin.motion), pin.pivot.value_or(mean));
+    if (!result.motion.pose(0).isApprox(Eigen::Isometry3d::Identity()))
+      refuse(
+          "begins its motion away from where the body holds these vertices; begin with { t = 0 }, or with a first "
+          "key that moves nothing");
+  }
   return result;
 }
 
@@ -154,7 +160,8 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
   for (const assets::Collider& c : scene.colliders) colliders.push_back(make_collider(c));
   return builder.finish(scene.gravity, {scene.damping.drag, scene.damping.alpha, scene.damping.beta},
                         std::move(colliders),
-                        {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0)});
+                        {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0),
+                         sim::is_implicit(assets::name_of(scene.time.integrator)) ? 100.0 : sim::kExplicitHardness});
 }
 
 sim::SimulationSettings simulation_settings(const assets::Scene& scene) {

@@ -1,6 +1,6 @@
 #include <cholmod.h>
 
-#include <stdexcept>
+#include <new>
 
 #include "sim/linear_solver.h"
 
@@ -43,6 +43,7 @@ struct CholeskySolver::Impl {
   std::vector<int> order(const BlockMatrix& matrix) {
     const auto n = static_cast<size_t>(matrix.rows());
     cholmod_sparse* graph = cholmod_allocate_sparse(n, n, matrix.column.size(), 1, 1, 1, CHOLMOD_PATTERN, &common);
+    if (!graph) throw std::bad_alloc();
     auto* p = static_cast<int*>(graph->p);
     auto* index = static_cast<int*>(graph->i);
     int count = 0;
@@ -73,6 +74,7 @@ struct CholeskySolver::Impl {
       block_first.push_back(static_cast<int>(block_of.size()));
     }
     A = cholmod_allocate_sparse(3 * n, 3 * n, nonzeros, 1, 1, -1, CHOLMOD_REAL, &common);
+    if (!A) throw std::bad_alloc();
     auto* p = static_cast<int*>(A->p);
     auto* index = static_cast<int*>(A->i);
     int count = 0;

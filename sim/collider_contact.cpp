@@ -33,7 +33,7 @@ void ColliderContact::begin_step(const StepContext& context) {
   if (settings_.stiffness > 0)
     stiffness_.setConstant(settings_.stiffness);
   else
-    stiffness_ = 100 / (context.h * context.h * settings_.distance) * masses_;
+    stiffness_ = settings_.hardness / (context.h_nominal * context.h_nominal * settings_.distance) * masses_;
 }
 
 /// Calls each(intrusion, world normal) for the colliders within d_hat of the point; intrusion = d_hat - d > 0.

@@ -13,6 +13,7 @@ struct ContactSettings {
   double distance = 2e-3;    ///< d_hat: the penalty begins here [m] > 0
   double slip_speed = 1e-3;  ///< friction holds below [m/s] > 0
   double stiffness = 0;      ///< k [N/m^2] for every vertex; 0: from mass and step
+  double hardness = 100;     ///< c in k = c m/(h^2 d_hat), where k comes from mass and step; see kExplicitHardness
 };
 
 /// What the contact did in a step.
@@ -23,8 +24,13 @@ struct ContactReport {
 
 /// psi(d) = k/3 (d_hat - d)^3 for d < d_hat; goes on inside the collider, so what a step threw inside is pushed out.
 ///
-/// Without a given stiffness, k h^2 d_hat^2 = 100 m d_hat: at the surface a vertex is stopped from a speed of 100 d_hat
-/// per step, or carries a column of (100 d_hat/h^2)/g vertices like itself.
+/// An explicit method with the step h is stable up to h^2 psi''/m = 2 c s/d_hat < 4 at the intrusion s = d_hat - d:
+/// with c = 1/2 as far as an intrusion of 4 d_hat.
+inline constexpr double kExplicitHardness = 0.5;
+
+/// Without a given stiffness, k = 100 m/(h^2 d_hat), h the nominal step (halves keep it, so energy stays what it was):
+/// at the surface a vertex is stopped from a speed of 100 d_hat per step, or carries a column of (100 d_hat/h^2)/g
+/// vertices like itself.
 class ColliderContact : public EnergyTerm {
  public:
   /// `masses` [kg] per vertex of the state.

@@ -20,6 +20,9 @@ class ColliderFriction final : public EnergyTerm {
   void begin_step(const StepContext& context) override {
     touches_.clear();
     touches_of_.assign(contact_.stencils().size() + 1, 0);
+    // The normal force is the one that the last step ended with. At t = 0 there was none: an overlap that a body was
+    // placed with has not pushed anything yet.
+    if (context.t <= 0) return;
     const auto& colliders = contact_.colliders();
     std::vector<Eigen::Isometry3d> now, shape_now, moved;  // poses at t, their inverses, and the move to t + h
     for (const Collider& c : colliders) {
@@ -47,6 +50,17 @@ class ColliderFriction final : public EnergyTerm {
       visit(i, [&](const Touch& touch) {
         const double u = slip(touch, v, i).norm(), e = slip_speed_;
         sum += touch.limit * (u < e ? u * u / e - u * u * u / (3 * e * e) : u - e / 3);
+      });
+      return sum;
+    });
+  }
+
+  double power(const Eigen::VectorXd& v) const override {
+    return parallel_sum(vertices(), Work::kRow, [&](int i) {
+      double sum = 0;
+      visit(i, [&](const Touch& touch) {
+        const double u = slip(touch, v, i).norm();
+        sum += touch.limit * over_speed(u) * u * u;
       });
       return sum;
     });

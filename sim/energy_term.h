@@ -22,6 +22,7 @@ struct StepContext {
   const Eigen::VectorXd& x_predicted;  ///< x + h v, 3n [m]
   double t = 0;                        ///< start of the step [s]
   double h = 0;                        ///< its length [s]
+  double h_nominal = 0;                ///< the step that was asked for; longer than h while it is taken in halves [s]
 };
 
 /// A scalar function of a stacked vector q (3n): a potential E(x) [J] of the positions, or a dissipation potential
@@ -42,6 +43,13 @@ class EnergyTerm {
 
   /// gradient += d value / dq; both 3n.
   virtual void add_gradient(const Eigen::VectorXd& q, Eigen::VectorXd& gradient) const = 0;
+
+  /// What a dissipation potential takes out of the motion at velocities v, 3n [W].
+  virtual double power(const Eigen::VectorXd& v) const {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
+    add_gradient(v, force);
+    return force.dot(v);
+  }
 
   /// Vertices per stencil k (1 to 4); 0 for a term without a Hessian (a linear function).
   virtual int stencil_size() const { return 0; }

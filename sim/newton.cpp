@@ -56,7 +56,7 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
   phi_.gradient(y, g_, report);
   const std::vector<double> g0 = body_norms(model_, g_);
   std::vector<double> norms = g0;
-  std::vector<double> floors(bodies), target(bodies), linear_target(bodies);
+  std::vector<double> floors(bodies), target(bodies);
   double phi_rounding = 0;
   for (size_t b = 0; b < bodies; ++b) {
     const BodyRange& body = model_.bodies[b];
@@ -99,24 +99,46 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
                   model_.bodies[slowest].name + "'");
     }
     ++report.newton_iterations;
-    for (size_t b = 0; b < bodies; ++b)
-      linear_target[b] = std::max(kLinearShare * target[b], settings_.linear_tolerance * norms[b]);
     phi_.soften();
     model_gradient_ = g_;
+    bool hardened = false;
+    std::string failure;
     for (int proposal = 1;; ++proposal) {
       phi_.hessian(y, H_, report);
-      const std::string failure = direction(y, linear_target, report);
+      failure = direction(y, linear_targets(target), report);
       if (!failure.empty()) return fail("the linear solver failed: " + failure);
       if (proposal == kMostProposals || !phi_.harden(y, d_)) break;
+      hardened = true;
       model_gradient_ = g_;
       phi_.add_hardened_gradient(y, model_gradient_);
     }
-    const double slope = g_.dot(d_);
-    if (!(slope < 0)) return fail("the search direction does not go downhill");
-    if (!line_search(y, slope, phi_rounding, report)) return fail("the line search found no lower energy");
+    failure = descend(y, phi_rounding, report);
+    if (!failure.empty() && hardened) {  // the plain Newton direction goes downhill in any case
+      phi_.soften();
+      model_gradient_ = g_;
+      phi_.hessian(y, H_, report);
+      failure = direction(y, linear_targets(target), report);
+      if (failure.empty()) failure = descend(y, phi_rounding, report);
+    }
+    if (!failure.empty()) return fail(failure);
     phi_.gradient(y, g_, report);
     norms = body_norms(model_, g_);
   }
+}
+
+/// How far a linear solve with the model's gradient has to go.
+std::vector<double> Newton::linear_targets(const std::vector<double>& target) const {
+  std::vector<double> result = body_norms(model_, model_gradient_);
+  for (size_t b = 0; b < result.size(); ++b)
+    result[b] = std::max(kLinearShare * target[b], settings_.linear_tolerance * result[b]);
+  return result;
+}
+
+/// A step along d. Returns what went wrong, or nothing.
+std::string Newton::descend(Eigen::VectorXd& y, double rounding, StepReport& report) {
+  const double slope = g_.dot(d_);
+  if (!(slope < 0)) return "the search direction does not go downhill";
+  return line_search(y, slope, rounding, report) ? "" : "the line search found no lower energy";
 }
 
 /// d := -H^-1 g of the model. Returns what went wrong, or nothing.

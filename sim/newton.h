@@ -33,6 +33,8 @@ class Newton {
 
  private:
   std::string direction(const Eigen::VectorXd& y, const std::vector<double>& targets, StepReport& report);
+  std::vector<double> linear_targets(const std::vector<double>& target) const;
+  std::string descend(Eigen::VectorXd& y, double rounding, StepReport& report);
   bool line_search(Eigen::VectorXd& y, double slope, double rounding, StepReport& report);
 
   const Model& model_;

@@ -58,6 +58,7 @@ bool is_implicit(std::string_view integrator) { return find(integrator).make_imp
 
 Simulation::Simulation(Model model, const SimulationSettings& settings)
     : model_(std::move(model)), pins_(model_), settings_(settings), state_{0, model_.x0, model_.v0} {
+  pins_.zero(state_.v);  // a body's velocity is not that of what holds it
   const Entry& entry = find(settings.integrator);
   if (entry.make_implicit) {
     implicit_ = entry.make_implicit();
@@ -77,6 +78,7 @@ Simulation::~Simulation() = default;
 
 StepReport Simulation::step(double h) {
   const State before = state_;
+  nominal_ = h;
   const double dissipated = dissipated_;
   double seconds = 0;
   StepReport report;
@@ -128,9 +130,7 @@ StepReport Simulation::attempt(double h) {
   }
   report.steps = 1;
   if (!model_.dissipations.empty()) {
-    Eigen::VectorXd force = Eigen::VectorXd::Zero(state_.v.size());
-    for (const auto& term : model_.dissipations) term->add_gradient(state_.v, force);
-    report.dissipated = h * force.dot(state_.v);
+    for (const auto& term : model_.dissipations) report.dissipated += h * term->power(state_.v);
     dissipated_ += report.dissipated;
   }
   return report;
@@ -138,7 +138,7 @@ StepReport Simulation::attempt(double h) {
 
 void Simulation::begin_step(double h, StepReport& report) {
   predicted_ = state_.x + h * state_.v;
-  const StepContext context{state_.x, state_.v, predicted_, state_.t, h};
+  const StepContext context{state_.x, state_.v, predicted_, state_.t, h, nominal_};
   for (const auto& term : model_.potentials) {
     const Stopwatch watch(term->kind() == EnergyKind::kContact ? report.seconds.contact : report.seconds.gradient);
     term->begin_step(context);

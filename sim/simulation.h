@@ -26,7 +26,7 @@ struct SimulationSettings {
 /// Energies of the whole scene [J].
 struct Energies {
   double kinetic = 0, elastic = 0, gravity = 0, contact = 0;
-  double dissipated = 0;  ///< by dissipation potentials, since the start
+  double dissipated = 0;  ///< by dissipation potentials, since the start; the method's own damping is not in it
 };
 
 class Simulation {
@@ -39,7 +39,7 @@ class Simulation {
   const State& state() const { return state_; }
   bool implicit() const { return implicit_ != nullptr; }
 
-  /// Goes on by h [s]. If the report says that it did not converge, the state is what it was before.
+  /// Goes on by h [s] > 0. If the report says that it did not converge, the state is what it was before.
   StepReport step(double h);
 
   Energies energies() const;
@@ -60,7 +60,8 @@ class Simulation {
   SimulationSettings settings_;
   State state_;
   double dissipated_ = 0;
-  double extent_ = 0;  ///< diagonal of the scene at the start [m]
+  double nominal_ = 0;  ///< the step that was asked for [s]
+  double extent_ = 0;   ///< diagonal of the scene at the start [m]
   std::unique_ptr<ImplicitMethod> implicit_;
   std::unique_ptr<ExplicitMethod> explicit_;
   std::unique_ptr<IncrementalPotential> phi_;
