@@ -36,6 +36,16 @@ bool up_to_date(const std::filesystem::path& file, const std::string& hash, int 
   return has(kHashKey, hash) && has(kFrameKey, std::to_string(frame));
 }
 
+/// What the cache still knows of a clip that was not touched in this run.
+void read_figures(ClipPlan& plan) {
+  for (int f = 1; f <= plan.frames.back(); ++f) {
+    const std::optional<CachedFrame> data = plan.cache.read(f);
+    if (!data) return;
+    plan.figures.vertices = static_cast<long>(data->state.x.size()) / 3;
+    plan.figures.per_frame.push_back(data->figures);
+  }
+}
+
 CachedFrame must_read(const ClipCache& cache, int frame) {
   std::optional<CachedFrame> data = cache.read(frame);
   if (!data)
@@ -105,7 +115,10 @@ int run_render(const ClipArguments& a) {
   if (!stale.empty()) render_frames(plan, stale, a.quiet);
   if (!a.video.empty()) write_video(a.video, files, plan.scene.time.fps);
   plan.figures.total = since(start);
-  if (!a.stats.empty()) write_stats(a.stats, plan.figures);
+  if (!a.stats.empty()) {
+    if (stale.empty()) read_figures(plan);
+    write_stats(a.stats, plan.figures);
+  }
   if (stale.empty())
     say(a.quiet, "every frame is up to date");
   else

@@ -32,9 +32,12 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
       j["left_out"][item.feature] = item.why;
   }
   if (!run.clip.solver.empty()) j["solver"]["chosen"] = run.clip.solver;
-  j["vertices"] = run.vertices;
-  j["triangles"] = run.triangles;
-  j["tets"] = run.tets;
+  // Meshes that this run did not load are not counted.
+  if (run.vertices > 0) j["vertices"] = run.vertices;
+  if (run.triangles > 0) {
+    j["triangles"] = run.triangles;
+    j["tets"] = run.tets;
+  }
   j["frames"] = run.frames_asked;
   j["frames_rendered"] = run.frames_rendered;
   j["frames_up_to_date"] = run.frames_up_to_date;
