@@ -29,7 +29,8 @@ void walk(KeyVisitor& v, Solver& s) {
 void walk(KeyVisitor& v, Contact& c) {
   v.key({"distance", kPhysics, "m", kLength, "at which the penalty begins"}, &c.distance);
   v.key({"slip_speed", kPhysics, "m/s", above(0, 1e3), "below which friction holds"}, &c.slip_speed);
-  v.key({"stiffness", kPhysics, "N/m^2", kStiffness, "of the penalty; left out, it comes from the scene"},
+  v.key({"stiffness", kPhysics, "N/m^2", kStiffness,
+         "of the penalty; left out, 100 mass / (step^2 distance) of each vertex"},
         &c.stiffness);
 }
 
