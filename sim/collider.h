@@ -26,7 +26,8 @@ struct SignedDistance {
   Eigen::Vector3d normal;  ///< unit, away from the solid
 };
 
-/// Distance from `p`, both in the collider's own frame. Exact everywhere; inside a box the nearest face decides.
+/// Distance from `p`, both in the collider's own frame: exact, inside too. Where several nearest points tie (the centre
+/// of a sphere, the axis of a capsule, the middle planes of a box) the normal is one of theirs.
 SignedDistance signed_distance(const ColliderShape& shape, const Eigen::Vector3d& p);
 
 struct Collider {
