@@ -7,6 +7,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "assets/drop_unused.h"
 #include "assets/error.h"
 #include "assets/raw_surface.h"
 
@@ -58,25 +59,6 @@ void check_finite(const RawSurface& raw, const std::string& name) {
     throw UserError(ErrorKind::kInput, name,
                     fmt::format("vertex {} has a coordinate that is no finite number; export the mesh again", i + 1));
   }
-}
-
-/// Numbers the welded vertices that triangles use, in order; forgets the others.
-void drop_unused(sim::TriangleMesh& mesh, std::vector<int>& position_of) {
-  std::vector<int> number(mesh.vertices.size(), -1);
-  for (const sim::Triangle& t : mesh.triangles) {
-    for (const int v : t) number[static_cast<std::size_t>(v)] = 0;
-  }
-  int count = 0;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (number[i] < 0) continue;
-    mesh.vertices[static_cast<std::size_t>(count)] = mesh.vertices[i];
-    number[i] = count++;
-  }
-  mesh.vertices.resize(static_cast<std::size_t>(count));
-  for (sim::Triangle& t : mesh.triangles) {
-    for (int& v : t) v = number[static_cast<std::size_t>(v)];
-  }
-  for (int& v : position_of) v = number[static_cast<std::size_t>(v)];
 }
 
 }  // namespace
@@ -167,7 +149,8 @@ ImportedSurface build_surface(RawSurface raw, const std::string& name, const Mes
                     fmt::format("holds no triangles ({} without area, {} points and lines); a surface needs faces",
                                 out.dropped_degenerate, out.dropped_other));
   }
-  drop_unused(out.welded, out.position_of);
+  const std::vector<int> number = drop_unused(out.welded.vertices, out.welded.triangles);
+  for (int& v : out.position_of) v = number[static_cast<std::size_t>(v)];
   apply_mesh_options(options, out.welded.vertices);
   if (options.up != 'y') {
     const Eigen::Matrix3f turn = y_from_up(options.up).cast<float>();

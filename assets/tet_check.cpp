@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "assets/drop_unused.h"
 #include "assets/surface_components.h"
 
 namespace softreel::assets {
@@ -65,23 +66,6 @@ std::vector<sim::Triangle> sorted_faces(const std::vector<sim::Triangle>& triang
   return faces;
 }
 
-void drop_unused(sim::TetMesh& mesh) {
-  std::vector<int> number(mesh.vertices.size(), -1);
-  for (const sim::Tet& t : mesh.tets) {
-    for (const int v : t) number[static_cast<std::size_t>(v)] = 0;
-  }
-  int count = 0;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (number[i] < 0) continue;
-    mesh.vertices[static_cast<std::size_t>(count)] = mesh.vertices[i];
-    number[i] = count++;
-  }
-  mesh.vertices.resize(static_cast<std::size_t>(count));
-  for (sim::Tet& t : mesh.tets) {
-    for (int& v : t) v = number[static_cast<std::size_t>(v)];
-  }
-}
-
 }  // namespace
 
 std::string accept_tets(const sim::TriangleMesh& surface, TetgenReply reply, double volume, sim::TetMesh& mesh) {
@@ -97,7 +81,7 @@ std::string accept_tets(const sim::TriangleMesh& surface, TetgenReply reply, dou
   if (sorted_faces(sim::boundary_triangles(mesh)) != sorted_faces(surface.triangles)) {
     return "TetGen did not keep its faces";
   }
-  drop_unused(mesh);  // every surface vertex is in use: the first ones stay where they are
+  drop_unused(mesh.vertices, mesh.tets);  // every surface vertex is in use: the first ones stay where they are
   double filled = 0;
   for (const sim::Tet& t : mesh.tets) {
     const auto p = [&](std::size_t k) -> const sim::Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
