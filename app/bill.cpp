@@ -47,9 +47,9 @@ std::vector<BillItem> bill_of(const Scene& s) {
       "there is no collider");
   add("friction", count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0, "some colliders are rough",
       s.colliders.empty() ? "there is no collider" : "every collider's friction is 0");
-  const std::string integrator(name_of(s.time.integrator));
+  const std::string& integrator = s.time.integrator;
   add("Hessians and a linear solver", sim::is_implicit(integrator),
-      fmt::format("{} solves a system in each step (linear = {})", integrator, name_of(s.solver.linear)),
+      fmt::format("{} solves a system in each step (linear = {})", integrator, s.solver.linear),
       fmt::format("{} is explicit", integrator));
   add("shadow maps", count(s.lights, [](const Light& l) { return l.shadow; }) > 0, "a light casts shadows",
       "no light casts shadows");

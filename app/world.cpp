@@ -102,7 +102,7 @@ void add_cloth(const assets::Scene& scene, const assets::Cloth& cloth, const Clo
                                       cloth.spring_damping);
     } else {
       sim::MembraneMaterial m;
-      m.model = assets::name_of(cloth.material.model);
+      m.model = cloth.material.model;
       m.young = cloth.material.young;
       m.poisson = cloth.material.poisson;
       m.thickness = cloth.material.thickness;
@@ -151,8 +151,7 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
     const assets::SoftBody& soft = scene.soft[i];
     const sim::TetMesh& rest = shapes.soft[i].rest;
     const sim::BodyRange range = builder.add_solid(
-        soft.name, rest,
-        {std::string(assets::name_of(soft.material.model)), soft.material.young, soft.material.poisson, soft.density});
+        soft.name, rest, {soft.material.model, soft.material.young, soft.material.poisson, soft.density});
     finish_body(scene, soft, rest.vertices, range, builder);
   }
   for (size_t i = 0; i < scene.cloth.size(); ++i) add_cloth(scene, scene.cloth[i], shapes.cloth[i], builder);
@@ -161,13 +160,13 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
   return builder.finish(scene.gravity, {scene.damping.drag, scene.damping.alpha, scene.damping.beta},
                         std::move(colliders),
                         {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0),
-                         sim::is_implicit(assets::name_of(scene.time.integrator)) ? 100.0 : sim::kExplicitHardness});
+                         sim::is_implicit(scene.time.integrator) ? 100.0 : sim::kExplicitHardness});
 }
 
 sim::SimulationSettings simulation_settings(const assets::Scene& scene) {
   sim::SimulationSettings s;
-  s.integrator = assets::name_of(scene.time.integrator);
-  s.linear_solver = assets::name_of(scene.solver.linear);
+  s.integrator = scene.time.integrator;
+  s.linear_solver = scene.solver.linear;
   s.newton.tolerance = scene.solver.tolerance;
   s.newton.max_iterations = scene.solver.max_iterations;
   s.newton.linear_tolerance = scene.solver.linear_tolerance;

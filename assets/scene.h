@@ -21,11 +21,7 @@ struct Color {
   bool operator==(const Color&) const = default;
 };
 
-enum class Integrator { kImplicitEuler, kSymplecticEuler };
 enum class Minimizer { kNewton };
-enum class LinearSolver { kAuto, kCholesky, kCg };
-enum class SolidModel { kStableNeoHookean, kCorotatedVolume };
-enum class MembraneModel { kStvk, kStableNeoHookean };
 enum class ClothModel { kMembrane, kMassSpring };
 enum class BendingModel { kAuto, kQuadratic, kDiscreteShell };  ///< kAuto: quadratic where flat at rest
 enum class TetrahedralizeMode { kConform };
@@ -35,11 +31,11 @@ enum class LightKind { kArea, kSun };
 enum class GroundMode { kAuto, kOn, kOff };
 
 struct Time {
-  double fps = 30;       ///< frames per second of the clip [1/s]
-  double duration = 3;   ///< [s]; frame 1 is t = 0
-  int substeps = 4;      ///< simulation steps per frame
-  int max_halvings = 6;  ///< how often a step that does not converge is retried with half the size
-  Integrator integrator = Integrator::kImplicitEuler;
+  double fps = 30;                            ///< frames per second of the clip [1/s]
+  double duration = 3;                        ///< [s]; frame 1 is t = 0
+  int substeps = 4;                           ///< simulation steps per frame
+  int max_halvings = 6;                       ///< how often a step that does not converge is retried with half the size
+  std::string integrator = "implicit-euler";  ///< of sim::integrators()
 
   int frames() const;                                   ///< round(duration x fps), at least 1
   double step() const { return 1 / (fps * substeps); }  ///< [s]
@@ -47,7 +43,7 @@ struct Time {
 
 struct Solver {
   Minimizer method = Minimizer::kNewton;
-  LinearSolver linear = LinearSolver::kAuto;
+  std::string linear = "auto";     ///< of sim::linear_solvers()
   double tolerance = 1e-3;         ///< of a step, relative to the motion it has to produce [-]
   double linear_tolerance = 1e-4;  ///< of a linear solve by iteration, relative residual [-]
   int max_iterations = 50;         ///< of the minimizer, per step
@@ -121,19 +117,19 @@ struct Tetrahedralize {
 };
 
 struct SolidMaterial {
-  std::string preset;  ///< its figures have been filled in below; kept for messages
-  SolidModel model = SolidModel::kStableNeoHookean;
-  double young = 1e5;     ///< Young's modulus [Pa]
-  double poisson = 0.45;  ///< Poisson's ratio [-]
+  std::string preset;                        ///< its figures have been filled in below; kept for messages
+  std::string model = "stable-neo-hookean";  ///< of sim::solid_materials()
+  double young = 1e5;                        ///< Young's modulus [Pa]
+  double poisson = 0.45;                     ///< Poisson's ratio [-]
 };
 
 struct ClothMaterial {
-  std::string preset;  ///< its figures have been filled in below; kept for messages
-  MembraneModel model = MembraneModel::kStvk;
-  double young = 1e5;       ///< Young's modulus [Pa]
-  double poisson = 0.3;     ///< Poisson's ratio [-]
-  double thickness = 1e-3;  ///< [m]
-  double bending = 1e-5;    ///< bending stiffness [N m]
+  std::string preset;          ///< its figures have been filled in below; kept for messages
+  std::string model = "stvk";  ///< of sim::membrane_materials()
+  double young = 1e5;          ///< Young's modulus [Pa]
+  double poisson = 0.3;        ///< Poisson's ratio [-]
+  double thickness = 1e-3;     ///< [m]
+  double bending = 1e-5;       ///< bending stiffness [N m]
 };
 
 /// Stiffness of the springs of a mass-spring cloth [N/m].

@@ -12,7 +12,7 @@ void walk(KeyVisitor& v, Time& t) {
   v.key({"fps", kPhysics, "1/s", kFps, "frames per second of the clip"}, &t.fps);
   v.key({"duration", kNeither, "s", kDuration, "length of the clip; frame 1 shows t = 0"}, &t.duration);
   v.key({"substeps", kPhysics, "", kSubsteps, "simulation steps per frame"}, &t.substeps);
-  v.key({"integrator", kPhysics, "", {}, "method of time integration"}, choice(t.integrator));
+  v.key({"integrator", kPhysics, "", {}, "method of time integration"}, MethodRef{&t.integrator, sim::integrators()});
   v.key({"max_halvings", kPhysics, "", between(0, 30), "how often a step that fails is retried with half its size"},
         &t.max_halvings);
   if (v.reading()) check(v, t);
@@ -20,7 +20,8 @@ void walk(KeyVisitor& v, Time& t) {
 
 void walk(KeyVisitor& v, Solver& s) {
   v.key({"method", kPhysics, "", {}, "minimizer of an implicit step"}, choice(s.method));
-  v.key({"linear", kPhysics, "", {}, "linear solver; auto chooses by size and stiffness"}, choice(s.linear));
+  v.key({"linear", kPhysics, "", {}, "linear solver; auto chooses by size and stiffness"},
+        MethodRef{&s.linear, sim::linear_solvers()});
   v.key({"tolerance", kPhysics, "", kTolerance, "of a step, relative to the motion it has to produce"}, &s.tolerance);
   v.key({"linear_tolerance", kPhysics, "", kTolerance, "relative residual at which cg stops"}, &s.linear_tolerance);
   v.key({"max_iterations", kPhysics, "", between(1, 100000), "of the minimizer, per step"}, &s.max_iterations);

@@ -91,7 +91,7 @@ void walk(KeyVisitor& v, SolidMaterial& m) {
   v.key({"preset", kNeither, "", {}, "named figures, also for density; keys beside it go first"},
         PresetRef{&m.preset, solid_preset_names()});
   if (v.reading()) apply_preset(m);
-  v.key({"model", kPhysics, "", {}, "law of the material"}, choice(m.model));
+  v.key({"model", kPhysics, "", {}, "law of the material"}, MethodRef{&m.model, sim::solid_materials()});
   v.key({"young", kPhysics, "Pa", kYoung, "Young's modulus"}, &m.young);
   v.key({"poisson", kPhysics, "", kPoisson, "Poisson's ratio"}, &m.poisson);
 }
@@ -100,7 +100,7 @@ void walk(KeyVisitor& v, ClothMaterial& m) {
   v.key({"preset", kNeither, "", {}, "named figures, also for density; keys beside it go first"},
         PresetRef{&m.preset, cloth_preset_names()});
   if (v.reading()) apply_preset(m);
-  v.key({"model", kPhysics, "", {}, "law of a membrane's material"}, choice(m.model));
+  v.key({"model", kPhysics, "", {}, "law of a membrane's material"}, MethodRef{&m.model, sim::membrane_materials()});
   v.key({"young", kPhysics, "Pa", kYoung, "Young's modulus"}, &m.young);
   v.key({"poisson", kPhysics, "", kPoisson, "Poisson's ratio"}, &m.poisson);
   v.key({"thickness", kPhysics, "m", kLength, "of the sheet"}, &m.thickness);

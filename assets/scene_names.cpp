@@ -8,11 +8,7 @@ namespace {
 template <size_t n>
 using Array = std::array<std::string_view, n>;
 
-constexpr Array<2> kIntegrator = {"implicit-euler", "symplectic-euler"};
 constexpr Array<1> kMinimizer = {"newton"};
-constexpr Array<3> kLinearSolver = {"auto", "cholesky", "cg"};
-constexpr Array<2> kSolidModel = {"stable-neo-hookean", "corotated-volume"};
-constexpr Array<2> kMembraneModel = {"stvk", "stable-neo-hookean"};
 constexpr Array<2> kClothModel = {"membrane", "mass-spring"};
 constexpr Array<3> kBendingModel = {"auto", "quadratic", "discrete-shell"};
 constexpr Array<1> kTetrahedralizeMode = {"conform"};
@@ -22,11 +18,7 @@ constexpr Array<2> kLightKind = {"area", "sun"};
 constexpr Array<3> kGroundMode = {"auto", "on", "off"};
 }  // namespace
 
-Names names_of(Integrator) { return kIntegrator; }
 Names names_of(Minimizer) { return kMinimizer; }
-Names names_of(LinearSolver) { return kLinearSolver; }
-Names names_of(SolidModel) { return kSolidModel; }
-Names names_of(MembraneModel) { return kMembraneModel; }
 Names names_of(ClothModel) { return kClothModel; }
 Names names_of(BendingModel) { return kBendingModel; }
 Names names_of(TetrahedralizeMode) { return kTetrahedralizeMode; }

@@ -12,6 +12,7 @@
 
 #include "assets/scene.h"
 #include "assets/scene_names.h"
+#include "sim/catalogue.h"
 
 namespace softreel::assets {
 
@@ -60,6 +61,11 @@ struct PresetRef {
   std::string* name;
   std::vector<std::string> names;
 };  ///< of a material
+/// One of the physics' methods, by its name.
+struct MethodRef {
+  std::string* name;
+  sim::Catalogue methods;
+};
 struct ScaleRef {
   Vec3* value;
 };  ///< a number or three
@@ -73,7 +79,7 @@ struct UnitRef {
 using ValueRef = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, Vec3*, std::optional<Vec3>*,
                               std::array<double, 2>*, std::array<int, 2>*, std::array<int, 3>*, std::vector<int>*,
                               Color*, std::optional<Color>*, std::optional<Box>*, ChoiceRef, FileRef, NameRef,
-                              PresetRef, ScaleRef, AxesRef, UnitRef>;
+                              PresetRef, MethodRef, ScaleRef, AxesRef, UnitRef>;
 
 /// A table of keys inside another.
 struct Section {

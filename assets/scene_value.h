@@ -13,6 +13,9 @@ namespace softreel::assets {
 double metres_per(std::string_view unit_name);  ///< 0 for an unknown name
 std::vector<std::string> unit_names();
 
+/// What a MethodRef chooses from.
+std::vector<std::string> method_names(const MethodRef& value);
+
 /// What the key takes: "a number [Pa], above 0"; the range as text may be given.
 std::string expected_text(const Key& key, const ValueRef& value, const std::string& range);
 

@@ -146,6 +146,15 @@ class ValueReader {
     return true;
   }
 
+  bool read(const Node& node, const MethodRef& out) {
+    const std::vector<std::string> names = method_names(out);
+    const bool known =
+        node.kind == Node::Kind::kString && std::find(names.begin(), names.end(), node.text) != names.end();
+    if (!known) return fail(node, node.kind == Node::Kind::kString ? meant(node.text, names) : "");
+    *out.name = node.text;
+    return true;
+  }
+
   bool read(const Node& node, const ScaleRef& out) {
     if (!node.is_number()) return read(node, out.value);
     double scale = 1;

@@ -89,6 +89,12 @@ std::vector<std::string> unit_names() {
   return names;
 }
 
+std::vector<std::string> method_names(const MethodRef& value) {
+  std::vector<std::string> names;
+  for (const sim::MethodInfo& info : value.methods) names.emplace_back(info.name);
+  return names;
+}
+
 std::string expected_text(const Key& key, const ValueRef& value, const std::string& allowed) {
   const std::string unit = *key.unit ? fmt::format(" [{}]", key.unit) : "";
   const std::string range = allowed.empty() ? "" : ", " + allowed;
@@ -116,6 +122,7 @@ std::string expected_text(const Key& key, const ValueRef& value, const std::stri
           [](const FileRef&) { return std::string("a file name in quotes, relative to the scene file"); },
           [](const NameRef&) { return std::string("a name in quotes, without . = * and not only digits"); },
           [](const PresetRef& p) { return "one of " + join_names(p.names, true); },
+          [](const MethodRef& m) { return "one of " + join_names(method_names(m), true); },
           [&](const ScaleRef&) { return "a number or three [x, y, z]" + unit + each; },
           [](const AxesRef&) { return std::string("a text of x, y and z, such as \"xz\""); },
           [&](const UnitRef&) {
@@ -147,6 +154,7 @@ std::string value_text(const ValueRef& value) {
                         [](const FileRef& v) { return v.path->empty() ? std::string() : toml_string(*v.path); },
                         [](const NameRef& v) { return v.name->empty() ? std::string() : toml_string(*v.name); },
                         [](const PresetRef& v) { return v.name->empty() ? std::string() : toml_string(*v.name); },
+                        [](const MethodRef& v) { return toml_string(*v.name); },
                         [](const ScaleRef& v) { return array_text(*v.value); },
                         [](const AxesRef& v) {
                           std::string axes;
@@ -163,6 +171,7 @@ std::vector<std::string> value_choices(const ValueRef& value) {
   if (const auto* choice = std::get_if<ChoiceRef>(&value))
     return std::vector<std::string>(choice->names.begin(), choice->names.end());
   if (const auto* preset = std::get_if<PresetRef>(&value)) return preset->names;
+  if (const auto* method = std::get_if<MethodRef>(&value)) return method_names(*method);
   if (std::holds_alternative<UnitRef>(value)) return unit_names();
   if (std::holds_alternative<Color*>(value) || std::holds_alternative<std::optional<Color>*>(value))
     return color_names();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/block_matrix.h"
+#include "sim/catalogue.h"
 #include "sim/state.h"
 
 namespace softreel::sim {
@@ -108,8 +109,6 @@ class AutoSolver final : public LinearSolver {
   long since_choice_ = 0;  // solves since it was last put to the test
 };
 
-/// Names that `make_linear_solver` knows, as in the scene file.
-std::span<const std::string_view> linear_solvers();
 /// Throws std::invalid_argument for an unknown name.
 std::unique_ptr<LinearSolver> make_linear_solver(std::string_view name);
 

@@ -5,13 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/catalogue.h"
 #include "sim/energy_term.h"
 #include "sim/mesh.h"
 
 namespace softreel::sim {
-
-/// Names that `make_membrane` knows, as in the scene file.
-std::span<const std::string_view> membrane_materials();
 
 /// Stretching energy of a sheet. `rest`: rest shape (flat or not); its vertex i is vertex first_vertex + i of the
 /// state. young [Pa] > 0, poisson in (-1, 1), thickness [m] > 0. Throws std::invalid_argument for an unknown

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/catalogue.h"
 #include "sim/model.h"
 #include "sim/newton.h"
 #include "sim/step_report.h"
@@ -69,8 +70,6 @@ class Simulation {
   Eigen::VectorXd predicted_;
 };
 
-/// Names that a scene can choose.
-std::span<const std::string_view> integrators();
 /// True if the integrator solves a system each step.
 bool is_implicit(std::string_view integrator);
 

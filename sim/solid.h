@@ -5,16 +5,15 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/catalogue.h"
 #include "sim/energy_term.h"
 #include "sim/mesh.h"
 
 namespace softreel::sim {
 
-/// Names that `make_solid` knows, as in the scene file.
-std::span<const std::string_view> solid_materials();
-
 /// Elastic energy of one solid. `rest`: rest shape; its vertex i is vertex first_vertex + i of the state.
-/// young [Pa] > 0, poisson in (-1, 0.5). Throws std::invalid_argument for an unknown material or a rest volume <= 0.
+/// young [Pa] > 0, poisson in (-1, 0.5). `material`: of `solid_materials()`. Throws std::invalid_argument for an
+/// unknown one or a rest volume <= 0.
 std::unique_ptr<EnergyTerm> make_solid(std::string_view material, double young, double poisson, const TetMesh& rest,
                                        int first_vertex);
 

@@ -40,6 +40,7 @@ void change(const ValueRef& value) {
                  [](const FileRef& v) { *v.path += "x"; },
                  [](const NameRef& v) { *v.name += "x"; },
                  [](const PresetRef& v) { *v.name += "x"; },
+                 [](const MethodRef& v) { *v.name += "x"; },
                  [](const ScaleRef& v) { v.value->x() *= 2; },
                  [](const AxesRef& v) { (*v.value)[1] = !(*v.value)[1]; },
                  [](const UnitRef& v) { *v.metres *= 2; },

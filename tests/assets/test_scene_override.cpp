@@ -24,7 +24,7 @@ TEST_CASE("--set changes what is there and makes the sections that are not") {
   CHECK(scene.soft[0].material.poisson == 0.47);  // the preset's
   CHECK(scene.render.samples == 4);
   CHECK(scene.title == "a long shot");
-  CHECK(scene.time.integrator == Integrator::kSymplecticEuler);
+  CHECK(scene.time.integrator == "symplectic-euler");
   CHECK(scene.soft[0].look.color);
   CHECK(scene.camera.fov == 20);
   CHECK(scene.gravity == Vec3(0, -1.62, 0));

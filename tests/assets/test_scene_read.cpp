@@ -22,7 +22,7 @@ TEST_CASE("a scene file with one body in it is a whole clip") {
   CHECK(scene.soft[0].name == "soft-1");
   REQUIRE(scene.soft[0].block);
   CHECK(scene.soft[0].block->cells == std::array{8, 8, 8});
-  CHECK(scene.soft[0].material.model == SolidModel::kStableNeoHookean);
+  CHECK(scene.soft[0].material.model == "stable-neo-hookean");
   CHECK(scene.lights.size() == 1);
   CHECK(!scene.camera.position);
   CHECK(scene.render.size == std::array{1280, 720});

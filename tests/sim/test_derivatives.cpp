@@ -65,7 +65,7 @@ void check_derivatives(const EnergyTerm& term, const std::vector<NamedState>& al
 
 TEST_CASE("the derivatives of every solid material agree with central differences") {
   TetMesh mesh = block_of_tets(Vec3(1, 1.2, 0.8), 1, 1, 1);
-  for (std::string_view material : solid_materials()) {
+  for (const auto& [material, help, cost, source, order] : solid_materials()) {
     for (double poisson : {0.0, 0.3, 0.45}) {
       CAPTURE(material);
       CAPTURE(poisson);
@@ -78,7 +78,7 @@ TEST_CASE("the derivatives of every solid material agree with central difference
 
 TEST_CASE("the derivatives of every membrane material agree with central differences") {
   const TriangleMesh mesh = grid_sheet(1, 1.2, 2, 2);
-  for (std::string_view material : membrane_materials()) {
+  for (const auto& [material, help, cost, source, order] : membrane_materials()) {
     CAPTURE(material);
     const auto term = make_membrane(material, kYoung, 0.3, 1.0, mesh, 0);
     // J = |f1 x f2| of a surface has no derivative where its area vanishes.

@@ -75,7 +75,7 @@ TEST_CASE("every linear solver meets its tolerance on a real system and agrees w
     const System s = real_system(4, young);
     const Eigen::VectorXd reference = dense(s.A).llt().solve(s.b);
     const std::vector<double> targets = {1e-10 * s.b.norm()};
-    for (std::string_view name : linear_solvers()) {
+    for (const auto& [name, help, cost, source, order] : linear_solvers()) {
       CAPTURE(name);
       CAPTURE(young);
       const auto solver = make_linear_solver(name);
@@ -96,7 +96,7 @@ TEST_CASE("a matrix that is not positive definite is refused with a reason") {
   System s = real_system(2, 1e5);
   for (double& v : s.A.values) v = -v;
   const std::vector<double> targets = {1e-8};
-  for (std::string_view name : linear_solvers()) {
+  for (const auto& [name, help, cost, source, order] : linear_solvers()) {
     CAPTURE(name);
     const auto solver = make_linear_solver(name);
     solver->analyse(s.A);

@@ -1,0 +1,24 @@
+#pragma once
+// The methods that a scene can choose by name. Each table lives beside what it makes: solid.cpp, membrane.cpp,
+// simulation.cpp, minimizer.cpp, linear_solver.cpp, preconditioner.cpp.
+#include <span>
+#include <string_view>
+
+namespace softreel::sim {
+
+struct MethodInfo {
+  std::string_view name;    ///< as in the scene file
+  std::string_view help;    ///< one line for the user
+  std::string_view cost;    ///< cost class: what one evaluation, step or solve takes
+  std::string_view source;  ///< author, year, section
+  int order = 0;            ///< of accuracy in time; 0 for what is no integrator, or has none
+};
+
+using Catalogue = std::span<const MethodInfo>;
+
+Catalogue solid_materials();
+Catalogue membrane_materials();
+Catalogue integrators();
+Catalogue linear_solvers();
+
+}  // namespace softreel::sim
