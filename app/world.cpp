@@ -167,9 +167,9 @@ sim::SimulationSettings simulation_settings(const assets::Scene& scene) {
   sim::SimulationSettings s;
   s.integrator = scene.time.integrator;
   s.linear_solver = scene.solver.linear;
-  s.newton.tolerance = scene.solver.tolerance;
-  s.newton.max_iterations = scene.solver.max_iterations;
-  s.newton.linear_tolerance = scene.solver.linear_tolerance;
+  s.minimizer.tolerance = scene.solver.tolerance;
+  s.minimizer.max_iterations = scene.solver.max_iterations;
+  s.minimizer.linear_tolerance = scene.solver.linear_tolerance;
   s.max_halvings = scene.time.max_halvings;
   return s;
 }

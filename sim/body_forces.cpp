@@ -14,13 +14,15 @@ class Gravity final : public EnergyTerm {
   }
   std::string_view name() const override { return "gravity"; }
   EnergyKind kind() const override { return EnergyKind::kGravity; }
+  void begin_step(const StepContext& context) override { factor_ = context.load_factor; }
   double value(const Eigen::VectorXd& x) const override {
-    return -parallel_sum(static_cast<int>(x.size()), Work::kVector, [&](int i) { return weight_(i) * x(i); });
+    return -factor_ * parallel_sum(static_cast<int>(x.size()), Work::kVector, [&](int i) { return weight_(i) * x(i); });
   }
-  void add_gradient(const Eigen::VectorXd&, Eigen::VectorXd& gradient) const override { gradient -= weight_; }
+  void add_gradient(const Eigen::VectorXd&, Eigen::VectorXd& gradient) const override { gradient -= factor_ * weight_; }
 
  private:
   Eigen::VectorXd weight_;  // [N]
+  double factor_ = 1;
 };
 
 struct DragKernel {

@@ -1,6 +1,6 @@
 #pragma once
 // The methods that a scene can choose by name. Each table lives beside what it makes: solid.cpp, membrane.cpp,
-// simulation.cpp, minimizer.cpp, linear_solver.cpp, preconditioner.cpp.
+// integrators.cpp, minimizer.cpp, newton.cpp, line_search.cpp, convergence_test.cpp, linear_solver.cpp.
 #include <span>
 #include <string_view>
 
@@ -19,6 +19,10 @@ using Catalogue = std::span<const MethodInfo>;
 Catalogue solid_materials();
 Catalogue membrane_materials();
 Catalogue integrators();
+Catalogue minimizers();
+Catalogue hessian_modifications();
+Catalogue line_searches();
+Catalogue stopping_tests();
 Catalogue linear_solvers();
 
 }  // namespace softreel::sim

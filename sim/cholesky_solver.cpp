@@ -129,6 +129,7 @@ LinearReport CholeskySolver::solve(const Eigen::VectorXd& b, const LinearTargets
   LinearReport report;
   report.chosen = "cholesky";
   if (!impl_->factorized) {
+    report.indefinite = impl_->common.status != CHOLMOD_OUT_OF_MEMORY;
     report.reason = impl_->common.status == CHOLMOD_OUT_OF_MEMORY ? "not enough memory for the factor"
                                                                   : "the matrix is not positive definite";
     return report;
@@ -150,7 +151,10 @@ LinearReport CholeskySolver::solve(const Eigen::VectorXd& b, const LinearTargets
   x = Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(solution->x), b.size());
   cholmod_free_dense(&solution, &impl_->common);
   report.ok = x.allFinite();
-  if (!report.ok) report.reason = "the solution is not finite";
+  if (!report.ok) {
+    report.reason = "the solution is not finite";
+    report.indefinite = b.allFinite();  // singular up to rounding
+  }
   return report;
 }
 

@@ -29,7 +29,7 @@ void ColliderContact::place(double t) {
 }
 
 void ColliderContact::begin_step(const StepContext& context) {
-  place(context.t + context.h);
+  place(context.t_forces);
   if (settings_.stiffness > 0)
     stiffness_.setConstant(settings_.stiffness);
   else

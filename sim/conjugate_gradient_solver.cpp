@@ -111,6 +111,7 @@ LinearReport ConjugateGradientSolver::solve(const Eigen::VectorXd& b, const Line
     const double pAp = sum(pAp_of);
     if (!(pAp > 0)) {
       report.reason = "the matrix is not positive definite";
+      report.indefinite = true;
       return report;
     }
     const double alpha = rz / pAp;

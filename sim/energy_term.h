@@ -19,10 +19,12 @@ enum class Definiteness {
 struct StepContext {
   const Eigen::VectorXd& x;            ///< positions at t, 3n [m]
   const Eigen::VectorXd& v;            ///< velocities at t, 3n [m/s]
-  const Eigen::VectorXd& x_predicted;  ///< x + h v, 3n [m]
+  const Eigen::VectorXd& x_predicted;  ///< where forces are taken, as far as x and v tell, 3n [m]
   double t = 0;                        ///< start of the step [s]
   double h = 0;                        ///< its length [s]
   double h_nominal = 0;                ///< the step that was asked for; longer than h while it is taken in halves [s]
+  double t_forces = 0;                 ///< when forces are taken: t + h, or in between [s]
+  double load_factor = 1;              ///< how much of gravity and loads there is; below 1 on the way to an equilibrium
 };
 
 /// A scalar function of a stacked vector q (3n): a potential E(x) [J] of the positions, or a dissipation potential
@@ -36,7 +38,8 @@ class EnergyTerm {
   virtual std::string_view name() const = 0;
   virtual EnergyKind kind() const = 0;
 
-  /// Takes lagged quantities from the start of a step; called once before each step is solved.
+  /// Takes lagged quantities from the start of a step; called before each step is solved, and before explicit methods
+  /// ask for forces.
   virtual void begin_step(const StepContext&) {}
 
   virtual double value(const Eigen::VectorXd& q) const = 0;

@@ -99,11 +99,12 @@ HessianAssembler::HessianAssembler(int vertices, std::span<const EnergyTerm* con
 }
 
 void HessianAssembler::assemble(std::span<const ScaledTerm> terms, const Eigen::VectorXd& masses,
-                                const std::vector<std::uint8_t>& fixed, BlockMatrix& matrix) {
+                                const std::vector<std::uint8_t>& fixed, Definiteness definiteness,
+                                BlockMatrix& matrix) {
   for (size_t t = 0; t < terms.size(); ++t) {
     const ScaledTerm& s = terms[t];
     if (s.term->stencil_size() == 0 || constant_scale_[t] == s.scale) continue;
-    s.term->element_hessians(*s.at, s.scale, Definiteness::kClamped, slots_.data() + term_slot_start_[t]);
+    s.term->element_hessians(*s.at, s.scale, definiteness, slots_.data() + term_slot_start_[t]);
     ++evaluations_;
     if (s.term->constant_hessian()) constant_scale_[t] = s.scale;
   }
@@ -122,7 +123,7 @@ void HessianAssembler::assemble(std::span<const ScaledTerm> terms, const Eigen::
         sum += slot;
     }
     const int i = upper_row_[k], j = pattern_.column[static_cast<size_t>(upper_[k])];
-    if (i == j) sum.diagonal().array() += masses(i);
+    if (i == j && masses.size() > 0) sum.diagonal().array() += masses(i);
     const auto* row = &fixed[3 * static_cast<size_t>(i)];
     const auto* column = &fixed[3 * static_cast<size_t>(j)];
     for (int r = 0; r < 3; ++r) {

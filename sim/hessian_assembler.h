@@ -24,10 +24,10 @@ class HessianAssembler {
   /// `terms`: in the order in which `assemble` will get them. `vertices`: block rows.
   HessianAssembler(int vertices, std::span<const EnergyTerm* const> terms);
 
-  /// matrix = diag(masses) + sum scale * clamped Hessian; rows and columns of `fixed` degrees of freedom (3n flags)
-  /// become those of the identity. `masses`: n [kg].
+  /// matrix = diag(masses) + sum scale * Hessian; rows and columns of `fixed` degrees of freedom (3n flags)
+  /// become those of the identity. `masses`: n [kg], or empty for none.
   void assemble(std::span<const ScaledTerm> terms, const Eigen::VectorXd& masses,
-                const std::vector<std::uint8_t>& fixed, BlockMatrix& matrix);
+                const std::vector<std::uint8_t>& fixed, Definiteness definiteness, BlockMatrix& matrix);
 
   /// How often element Hessians were computed, over all terms (constant ones count once).
   long evaluations() const { return evaluations_; }

@@ -1,11 +1,11 @@
 #pragma once
 // An implicit integrator is only a prediction and a scale: each minimizes, per step,
-//   1/2 |y - y_tilde|_M^2 + beta (E(y) + D(a y + b)/a).
+//   inertia/2 |y - y_tilde|_M^2 + beta (E(y) + D(a y + b)/a).
 #include <Eigen/Core>
-#include <memory>
 #include <span>
-#include <string_view>
+#include <vector>
 
+#include "sim/explicit_method.h"
 #include "sim/state.h"
 
 namespace softreel::sim {
@@ -13,38 +13,28 @@ namespace softreel::sim {
 /// What a method asks the minimizer for.
 struct Stage {
   Eigen::VectorXd y_tilde;  ///< 3n [m]
+  double inertia = 1;       ///< 0: equilibrium, mass and velocity do not count
   double beta = 0;          ///< [s^2]
-  double a = 0;             ///< the method's own velocity is v(y) = a y + b: a [1/s]
+  double a = 0;             ///< the method's own velocity is v(y) = a y + b: a [1/s]; 0: there is none
   Eigen::VectorXd b;        ///< 3n [m/s]
 };
 
+/// A method has `static constexpr MethodInfo kInfo`, which declares its name, order and what it needs, and an entry in
+/// the table of integrators.cpp.
 class ImplicitMethod {
  public:
   virtual ~ImplicitMethod() = default;
-  virtual std::string_view name() const = 0;
-  virtual int order() const = 0;
+  /// Where in the step y lies: y = x + fraction (x' - x). Forces are taken there.
+  virtual double fraction() const { return 1; }
   /// Fills `stage` for a step of length h [s] from `state`.
-  virtual void predict(const State& state, double h, Stage& stage) const = 0;
+  virtual void predict(const State& state, double h, const Acceleration& acceleration, Stage& stage) = 0;
   /// Makes `state` the one at t + h, from the minimizer y.
-  virtual void finish(const Eigen::VectorXd& y, double h, State& state) const = 0;
-};
+  virtual void finish(const Eigen::VectorXd& y, double h, State& state) = 0;
 
-/// Backward Euler: y_tilde = x + h v, beta = h^2; v' = (y - x)/h. Order 1.
-class ImplicitEuler final : public ImplicitMethod {
- public:
-  std::string_view name() const override { return "implicit-euler"; }
-  int order() const override { return 1; }
-  void predict(const State& s, double h, Stage& stage) const override {
-    stage.y_tilde = s.x + h * s.v;
-    stage.beta = h * h;
-    stage.a = 1 / h;
-    stage.b = -s.x / h;
-  }
-  void finish(const Eigen::VectorXd& y, double h, State& s) const override {
-    s.v = (y - s.x) / h;
-    s.x = y;
-    s.t += h;
-  }
+  /// As in ExplicitMethod.
+  virtual void forget() {}
+  virtual std::vector<double> memory() const { return {}; }
+  virtual void restore(std::span<const double>) {}
 };
 
 }  // namespace softreel::sim

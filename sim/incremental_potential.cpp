@@ -12,6 +12,7 @@ std::vector<const EnergyTerm*> all_terms(const Model& model) {
   std::vector<const EnergyTerm*> terms;
   for (const auto& t : model.potentials) terms.push_back(t.get());
   for (const auto& t : model.dissipations) terms.push_back(t.get());
+  for (const auto& t : model.mass_corrections) terms.push_back(t.get());
   return terms;
 }
 
@@ -24,7 +25,7 @@ double& stage_of(const EnergyTerm& term, StepReport& report) {
 }  // namespace
 
 IncrementalPotential::IncrementalPotential(const Model& model, const Pins& pins)
-    : model_(model), pins_(pins), assembler_(model.vertices(), all_terms(model)) {
+    : model_(model), pins_(pins), mass_(model, pins.fixed()), assembler_(model.vertices(), all_terms(model)) {
   const int n = model.vertices();
   stiffness_.setZero(n);
   std::vector<double> blocks;
@@ -45,18 +46,23 @@ IncrementalPotential::IncrementalPotential(const Model& model, const Pins& pins)
   }
 }
 
+bool IncrementalPotential::damped() const { return stage_.a > 0 && !model_.dissipations.empty(); }
+
 void IncrementalPotential::set_velocity(const Eigen::VectorXd& y) {
-  if (!model_.dissipations.empty()) velocity_ = stage_.a * y + stage_.b;
+  if (damped()) velocity_ = stage_.a * y + stage_.b;
 }
 
 double IncrementalPotential::value(const Eigen::VectorXd& y, StepReport& report) {
-  double phi = 0.5 * parallel_sum(model_.vertices(), Work::kVector, [&](int i) {
-                 return model_.masses(i) * (y.segment<3>(3 * i) - stage_.y_tilde.segment<3>(3 * i)).squaredNorm();
-               });
+  double phi = 0;
+  if (stage_.inertia > 0) {
+    offset_ = y - stage_.y_tilde;
+    phi = stage_.inertia * mass_.energy(offset_);
+  }
   for (const auto& term : model_.potentials) {
     const Stopwatch watch(stage_of(*term, report));
     phi += stage_.beta * term->value(y);
   }
+  if (!damped()) return phi;
   set_velocity(y);
   for (const auto& term : model_.dissipations) {
     const Stopwatch watch(stage_of(*term, report));
@@ -71,32 +77,40 @@ void IncrementalPotential::gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g
     const Stopwatch watch(stage_of(*term, report));
     term->add_gradient(y, g);
   }
-  set_velocity(y);
-  for (const auto& term : model_.dissipations) {
-    const Stopwatch watch(stage_of(*term, report));
-    term->add_gradient(velocity_, g);
+  if (damped()) {
+    set_velocity(y);
+    for (const auto& term : model_.dissipations) {
+      const Stopwatch watch(stage_of(*term, report));
+      term->add_gradient(velocity_, g);
+    }
   }
   const Stopwatch watch(report.seconds.gradient);
-  parallel_for(model_.vertices(), Work::kVector, [&](int i) {
-    g.segment<3>(3 * i) =
-        stage_.beta * g.segment<3>(3 * i) + model_.masses(i) * (y.segment<3>(3 * i) - stage_.y_tilde.segment<3>(3 * i));
-  });
+  if (stage_.inertia > 0) {
+    offset_ = stage_.inertia * (y - stage_.y_tilde);
+    parallel_for(static_cast<int>(g.size()), Work::kVector, [&](int i) { g(i) *= stage_.beta; });
+    mass_.add_product(offset_, g);
+  } else {
+    g *= stage_.beta;
+  }
   pins_.zero(g);
 }
 
-void IncrementalPotential::hessian(const Eigen::VectorXd& y, BlockMatrix& H, StepReport& report) {
+void IncrementalPotential::hessian(const Eigen::VectorXd& y, Definiteness definiteness, BlockMatrix& H,
+                                   StepReport& report) {
   const Stopwatch watch(report.seconds.assemble);
   set_velocity(y);
   std::vector<ScaledTerm> terms;
   for (const auto& t : model_.potentials) terms.push_back({t.get(), &y, stage_.beta});
   for (const auto& t : model_.dissipations) terms.push_back({t.get(), &velocity_, stage_.beta * stage_.a});
+  for (const auto& t : model_.mass_corrections) terms.push_back({t.get(), &y, stage_.inertia});
   const long before = assembler_.evaluations();
-  assembler_.assemble(terms, model_.masses, pins_.fixed(), H);
+  static const Eigen::VectorXd kNone;
+  assembler_.assemble(terms, stage_.inertia > 0 ? model_.masses : kNone, pins_.fixed(), definiteness, H);
   report.hessians += assembler_.evaluations() - before;
 }
 
 bool IncrementalPotential::harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) {
-  if (model_.dissipations.empty()) return false;
+  if (!damped()) return false;
   set_velocity(y);
   const Eigen::VectorXd dv = stage_.a * dy;
   bool any = false;

@@ -1,10 +1,11 @@
 #pragma once
-// The function that an implicit step minimizes: Phi(y) = 1/2 |y - y_tilde|_M^2 + beta (E(y) + D(a y + b)/a).
+// The function that an implicit step minimizes: Phi(y) = inertia/2 |y - y_tilde|_M^2 + beta (E(y) + D(a y + b)/a).
 #include <Eigen/Core>
 #include <vector>
 
 #include "sim/hessian_assembler.h"
 #include "sim/implicit_method.h"
+#include "sim/mass.h"
 #include "sim/model.h"
 #include "sim/step_report.h"
 
@@ -16,14 +17,16 @@ class IncrementalPotential {
   IncrementalPotential(const Model& model, const Pins& pins);
 
   Stage& stage() { return stage_; }
+  const Stage& stage() const { return stage_; }
+  MassMatrix& mass() { return mass_; }
 
   double value(const Eigen::VectorXd& y, StepReport& report);  ///< [J s^2]
 
   /// g = dPhi/dy, 3n [kg m]; zero where held.
   void gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g, StepReport& report);
 
-  /// Clamped Hessian [kg]; identity where held.
-  void hessian(const Eigen::VectorXd& y, BlockMatrix& H, StepReport& report);
+  /// Hessian [kg], of elements as `definiteness` says; identity where held.
+  void hessian(const Eigen::VectorXd& y, Definiteness definiteness, BlockMatrix& H, StepReport& report);
 
   /// Offers the step dy from y to all terms; true if some have changed their Hessians because of it.
   bool harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy);
@@ -42,13 +45,15 @@ class IncrementalPotential {
   const Eigen::VectorXd& stiffness() const { return stiffness_; }
 
  private:
+  bool damped() const;
   void set_velocity(const Eigen::VectorXd& y);
 
   const Model& model_;
   const Pins& pins_;
+  MassMatrix mass_;
   HessianAssembler assembler_;
   Stage stage_;
-  Eigen::VectorXd velocity_, scratch_, stiffness_;
+  Eigen::VectorXd velocity_, offset_, stiffness_;
 };
 
 }  // namespace softreel::sim

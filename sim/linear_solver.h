@@ -27,6 +27,7 @@ struct LinearTargets {
 struct LinearReport {
   bool ok = false;
   std::string reason;       ///< why not, if not ok
+  bool indefinite = false;  ///< not ok because A is not positive definite
   long iterations = 0;      ///< 0 for a direct solver
   std::string_view chosen;  ///< the method that gave the answer
 };

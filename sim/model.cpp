@@ -1,5 +1,7 @@
 #include "sim/model.h"
 
+#include <algorithm>
+
 namespace softreel::sim {
 
 Pins::Pins(const Model& model) : model_(model), fixed_(3 * static_cast<size_t>(model.vertices()), 0) {
@@ -21,6 +23,21 @@ void Pins::place(double t, Eigen::VectorXd& x) const {
         if (pin.axes[axis]) x(3 * v + axis) = target(axis);
     }
   }
+}
+
+void Pins::drive(double t, Eigen::VectorXd& v) const {
+  for (const Pin& pin : model_.pins)
+    for (int i : pin.vertices) {
+      const Eigen::Vector3d velocity = pin.motion.velocity(t, model_.x0.segment<3>(3 * i));
+      for (int axis = 0; axis < 3; ++axis)
+        if (pin.axes[axis]) v(3 * i + axis) = velocity(axis);
+    }
+}
+
+double Pins::turn(double from, double to) const {
+  double most = 0;
+  for (const Pin& pin : model_.pins) most = std::max(most, pin.motion.turn(from, to));
+  return most;
 }
 
 void Pins::zero(Eigen::VectorXd& vector) const {

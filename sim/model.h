@@ -25,9 +25,10 @@ struct Model {
   Eigen::VectorXd masses;         ///< lumped, one per vertex, n [kg] > 0
   Eigen::VectorXd x0, v0;         ///< at t = 0, 3n [m], [m/s]
   std::vector<Pin> pins;
-  std::vector<std::unique_ptr<EnergyTerm>> potentials;    ///< E(x) [J]
-  std::vector<std::unique_ptr<EnergyTerm>> dissipations;  ///< D(v) [W]; begin their steps after the potentials
-  const ColliderContact* contact = nullptr;               ///< the one among the potentials, if any
+  std::vector<std::unique_ptr<EnergyTerm>> potentials;        ///< E(x) [J]
+  std::vector<std::unique_ptr<EnergyTerm>> dissipations;      ///< D(v) [W]; begin their steps after the potentials
+  std::vector<std::unique_ptr<EnergyTerm>> mass_corrections;  ///< of bodies with consistent mass (mass.h)
+  const ColliderContact* contact = nullptr;                   ///< the one among the potentials, if any
 
   int vertices() const { return static_cast<int>(masses.size()); }
 };
@@ -42,6 +43,10 @@ class Pins {
   const std::vector<std::uint8_t>& fixed() const { return fixed_; }
   /// x of every held degree of freedom := its scripted position at time t.
   void place(double t, Eigen::VectorXd& x) const;
+  /// v of every held degree of freedom := its scripted velocity at time t, from before where it jumps.
+  void drive(double t, Eigen::VectorXd& v) const;
+  /// The farthest that any pin turns between two times [deg].
+  double turn(double from, double to) const;
   /// vector of every held degree of freedom := 0.
   void zero(Eigen::VectorXd& vector) const;
 

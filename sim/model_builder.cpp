@@ -5,6 +5,7 @@
 
 #include "sim/bending.h"
 #include "sim/body_forces.h"
+#include "sim/mass.h"
 #include "sim/membrane.h"
 #include "sim/solid.h"
 #include "sim/stiffness_damping.h"
@@ -21,15 +22,25 @@ BodyRange ModelBuilder::add_body(const std::string& name, const std::vector<Vec3
   return body;
 }
 
+template <class Mesh>
+void ModelBuilder::add_mass_correction(const Mesh& rest, double density, const BodyRange& body) {
+  model_.mass_corrections.push_back(make_mass_correction(rest, density, body.first));
+  scaled_corrections_.push_back([rest, density, first = body.first](double factor) {
+    return make_mass_correction(rest, factor * density, first);
+  });
+}
+
 BodyRange ModelBuilder::add_solid(const std::string& name, const TetMesh& rest, const SolidMaterial& m) {
   const BodyRange body = add_body(name, rest.vertices, lumped_masses(rest, m.density));
   model_.potentials.push_back(make_solid(m.model, m.young, m.poisson, rest, body.first));
+  if (m.consistent_mass) add_mass_correction(rest, m.density, body);
   return body;
 }
 
 BodyRange ModelBuilder::add_membrane(const std::string& name, const TriangleMesh& rest, const MembraneMaterial& m) {
   const BodyRange body = add_body(name, rest.vertices, lumped_masses(rest, m.areal_density));
   model_.potentials.push_back(make_membrane(m.model, m.young, m.poisson, m.thickness, rest, body.first));
+  if (m.consistent_mass) add_mass_correction(rest, m.areal_density, body);
   if (m.bending > 0) {
     const bool quadratic =
         m.bending_model == BendingModel::kQuadratic || (m.bending_model == BendingModel::kAuto && is_flat(rest));
@@ -77,6 +88,8 @@ Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vec
   }
   if (gravity.squaredNorm() > 0) m.potentials.push_back(make_gravity(m.masses, gravity));
   if (damping.drag + damping.alpha > 0) m.dissipations.push_back(make_drag(m.masses, damping.drag + damping.alpha));
+  if (damping.alpha > 0)  // alpha M, of the mass as it is; drag is one force per vertex
+    for (const auto& make : scaled_corrections_) m.dissipations.push_back(make(damping.alpha));
   if (!colliders.empty()) {
     const bool rough =
         std::any_of(colliders.begin(), colliders.end(), [](const Collider& c) { return c.friction > 0; });

@@ -1,5 +1,7 @@
 #pragma once
 // Puts a model together, body by body; what is not asked for is not built.
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@ struct SolidMaterial {
   double young = 1e5;     ///< [Pa] > 0
   double poisson = 0.4;   ///< in (-1, 0.5)
   double density = 1000;  ///< [kg/m^3] > 0
+  bool consistent_mass = false;
 };
 
 enum class BendingModel { kAuto, kQuadratic, kDiscreteShell };  ///< kAuto: quadratic where flat at rest
@@ -27,6 +30,7 @@ struct MembraneMaterial {
   double bending = 0;       ///< flexural rigidity [N m] >= 0; 0 leaves bending out
   BendingModel bending_model = BendingModel::kAuto;
   double areal_density = 1;  ///< [kg/m^2] > 0
+  bool consistent_mass = false;
 };
 
 struct Damping {
@@ -55,7 +59,11 @@ class ModelBuilder {
  private:
   BodyRange add_body(const std::string& name, const std::vector<Vec3>& rest, const std::vector<double>& masses);
 
+  template <class Mesh>
+  void add_mass_correction(const Mesh& rest, double density, const BodyRange& body);
+
   Model model_;
+  std::vector<std::function<std::unique_ptr<EnergyTerm>(double)>> scaled_corrections_;
   std::vector<double> masses_;
   std::vector<double> x_, v_;
 };

@@ -25,8 +25,14 @@ class Motion {
   bool still() const { return keys_.empty(); }
   /// world_at_t_from_world_at_rest
   Eigen::Isometry3d pose(double t) const;
+  /// Velocity at time t of a point given where it is at rest [m/s]; at a key frame, that of before it.
+  Eigen::Vector3d velocity(double t, const Eigen::Vector3d& at_rest) const;
+  /// An upper bound of the turn between two times: the sum over the axes of how far each angle goes [deg].
+  double turn(double from, double to) const;
 
  private:
+  MotionKey at(double t) const;
+
   std::vector<MotionKey> keys_;
   Eigen::Vector3d pivot_ = Eigen::Vector3d::Zero();
 };

@@ -1,63 +1,32 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/explicit_method.h"
-#include "sim/implicit_method.h"
-#include "sim/method_table.h"
-#include "sim/parallel.h"
 #include "sim/stopwatch.h"
 
 namespace softreel::sim {
 namespace {
 
-struct Entry {
-  MethodInfo info;
-  std::unique_ptr<ImplicitMethod> (*make_implicit)();
-  std::unique_ptr<ExplicitMethod> (*make_explicit)();
-};
-
-template <class Method>
-constexpr Entry implicit_entry(const MethodInfo& info) {
-  return {info, []() -> std::unique_ptr<ImplicitMethod> { return std::make_unique<Method>(); }, nullptr};
-}
-template <class Method>
-constexpr Entry explicit_entry(const MethodInfo& info) {
-  return {info, nullptr, []() -> std::unique_ptr<ExplicitMethod> { return std::make_unique<Method>(); }};
-}
-
-// The one table of integrators.
-constexpr std::array kIntegrators = {
-    implicit_entry<ImplicitEuler>({"implicit-euler", "never gains energy; damps motion faster than a few steps",
-                                   "one minimization a step", "Baraff, Witkin 1998", 1}),
-    explicit_entry<SymplecticEuler>({"symplectic-euler", "velocity first; stable while h omega < 2",
-                                     "one gradient a step", "Hairer, Lubich, Wanner 2006, section I.1.2", 1}),
-};
-
-const Entry& find(std::string_view name) { return find_method(kIntegrators, name, "integrator"); }
-
 // A vertex that crosses so many times the scene in one step is not simulated any more.
 constexpr double kRunaway = 100;
+constexpr double kLargestTurn = 90;  // of a pin in one step [deg]
 
 }  // namespace
 
-Catalogue integrators() { return catalogue_of<kIntegrators>(); }
-
-bool is_implicit(std::string_view integrator) { return find(integrator).make_implicit != nullptr; }
-
 Simulation::Simulation(Model model, const SimulationSettings& settings)
-    : model_(std::move(model)), pins_(model_), settings_(settings), state_{0, model_.x0, model_.v0} {
+    : model_(std::move(model)),
+      pins_(model_),
+      settings_(settings),
+      state_{0, model_.x0, model_.v0},
+      method_(make_integrator(settings.integrator)) {
   pins_.zero(state_.v);  // a body's velocity is not that of what holds it
-  const Entry& entry = find(settings.integrator);
-  if (entry.make_implicit) {
-    implicit_ = entry.make_implicit();
+  if (implicit()) {
     phi_ = std::make_unique<IncrementalPotential>(model_, pins_);
-    newton_ = std::make_unique<Newton>(model_, *phi_, settings.linear_solver, settings.newton);
+    minimizer_ = make_minimizer(model_, *phi_, settings.linear_solver, settings.minimizer);
   } else {
-    explicit_ = entry.make_explicit();
+    mass_ = std::make_unique<MassMatrix>(model_, pins_.fixed());
   }
   if (model_.vertices() > 0) {
     const Eigen::Map<const Eigen::Matrix3Xd> x(model_.x0.data(), 3, model_.vertices());
@@ -76,14 +45,17 @@ StepReport Simulation::step(double h) {
   StepReport report;
   {
     const Stopwatch watch(seconds);
-    report = step_in_halves(h, 0);
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(pins_.turn(before.t, before.t + h) / kLargestTurn - 1e-9)));
+    for (int part = 0; part < parts && report.converged; ++part) report.add(step_in_halves(h / parts, 0));
   }
   report.seconds.total = seconds;
   if (!report.converged) {
     state_ = before;
     dissipated_ = dissipated;
+    forget();
   } else {
-    // n halves of h do not add up to h exactly: frames fall where they should.
+    // Parts of h do not add up to h exactly: frames fall where they should.
     state_.t = before.t + h;
   }
   return report;
@@ -104,7 +76,7 @@ StepReport Simulation::step_in_halves(double h, int depth) {
 StepReport Simulation::attempt(double h) {
   StepReport report;
   State before = state_;
-  if (implicit_)
+  if (implicit())
     implicit_step(h, report);
   else
     explicit_step(h, report);
@@ -113,50 +85,52 @@ StepReport Simulation::attempt(double h) {
     if (!state_.x.allFinite() || !state_.v.allFinite() || !(farthest < kRunaway * extent_)) {
       report.converged = false;
       report.reason =
-          implicit_ ? "positions ran away" : "positions ran away: the step is too long for an explicit method";
+          implicit() ? "positions ran away" : "positions ran away: the step is too long for an explicit method";
     }
   }
   if (!report.converged) {
     state_ = std::move(before);
+    forget();
     return report;
   }
   report.steps = 1;
-  if (!model_.dissipations.empty()) {
+  const bool at_rest = implicit() && phi_->stage().a == 0;  // an equilibrium has no velocity
+  if (!model_.dissipations.empty() && !at_rest) {
     for (const auto& term : model_.dissipations) report.dissipated += h * term->power(state_.v);
     dissipated_ += report.dissipated;
   }
   return report;
 }
 
-void Simulation::begin_step(double h, StepReport& report) {
-  predicted_ = state_.x + h * state_.v;
-  const StepContext context{state_.x, state_.v, predicted_, state_.t, h, nominal_};
+void Simulation::forget() {
+  if (implicit())
+    method_.implicit_method->forget();
+  else
+    method_.explicit_method->forget();
+}
+
+StepContext Simulation::context(const State& from, const Eigen::VectorXd& predicted, double h, double t_forces) const {
+  const double load = settings_.load_time > 0 ? std::min(1.0, t_forces / settings_.load_time) : 1.0;
+  return {from.x, from.v, predicted, from.t, h, nominal_, t_forces, load};
+}
+
+void Simulation::begin_terms(const StepContext& context, StepReport& report) {
   for (const auto& term : model_.potentials) {
     const Stopwatch watch(term->kind() == EnergyKind::kContact ? report.seconds.contact : report.seconds.gradient);
     term->begin_step(context);
   }
+  const Stopwatch watch(report.seconds.gradient);
   for (const auto& term : model_.dissipations) term->begin_step(context);
 }
 
-void Simulation::implicit_step(double h, StepReport& report) {
-  begin_step(h, report);
-  implicit_->predict(state_, h, phi_->stage());
-  // Two places to start from: where the vertices are and where they are heading. The lower of the two is nearer: in
-  // free motion the second, before an impact the first.
-  Eigen::VectorXd y = predicted_;
-  pins_.place(state_.t + h, y);
-  if (model_.contact) {
-    Eigen::VectorXd here = state_.x;
-    pins_.place(state_.t + h, here);
-    if (phi_->value(here, report) < phi_->value(y, report)) y.swap(here);
-  }
-  newton_->minimize(y, report);
-  if (report.converged) implicit_->finish(y, h, state_);
-}
-
-void Simulation::explicit_step(double h, StepReport& report) {
-  begin_step(h, report);
-  const Acceleration acceleration = [&](const State& at, Eigen::VectorXd& a) {
+/// Forces at a state, with everything that is lagged in an implicit solve taken at that state itself.
+Acceleration Simulation::acceleration(double h, StepReport& report) {
+  const auto evaluate = [this, h, &report](State& at, Eigen::VectorXd& a) {
+    if (pins_.any()) {
+      pins_.place(at.t, at.x);
+      pins_.drive(at.t, at.v);
+    }
+    begin_terms(context(at, at.x, h, at.t), report);
     a.setZero(at.x.size());
     for (const auto& term : model_.potentials) {
       const bool contact = term->kind() == EnergyKind::kContact;
@@ -164,25 +138,57 @@ void Simulation::explicit_step(double h, StepReport& report) {
       const Stopwatch watch(contact ? report.seconds.contact : report.seconds.gradient);
       term->add_gradient(at.x, a);
     }
+    const Stopwatch watch(report.seconds.gradient);
     for (const auto& term : model_.dissipations) term->add_gradient(at.v, a);
-    parallel_for(model_.vertices(), Work::kVector, [&](int i) { a.segment<3>(3 * i) /= -model_.masses(i); });
-    pins_.zero(a);
+    a *= -1;
+    (mass_ ? *mass_ : phi_->mass()).solve(a);
   };
-  const Eigen::VectorXd x = state_.x;
-  explicit_->step(acceleration, h, state_);
+  return {evaluate, !model_.dissipations.empty()};
+}
+
+void Simulation::implicit_step(double h, StepReport& report) {
+  ImplicitMethod& method = *method_.implicit_method;
+  method.predict(state_, h, acceleration(h, report), phi_->stage());
+  const double fraction = method.fraction(), end = state_.t + h;
+  const bool still = phi_->stage().inertia == 0;
+  predicted_ = still ? state_.x : Eigen::VectorXd(state_.x + fraction * h * state_.v);
+  begin_terms(context(state_, predicted_, h, state_.t + fraction * h), report);
+  // What is held goes from where it is to where it belongs at the end; y lies in between.
+  const auto place = [&](Eigen::VectorXd& y) {
+    if (!pins_.any()) return;
+    y = state_.x + (y - state_.x) / fraction;
+    pins_.place(end, y);
+    y = state_.x + fraction * (y - state_.x);
+  };
+  // Two places to start from: where the vertices are and where they are heading. The lower of the two is nearer: in
+  // free motion the second, before an impact the first.
+  Eigen::VectorXd y = predicted_;
+  place(y);
+  if (model_.contact && !still) {
+    Eigen::VectorXd here = state_.x;
+    place(here);
+    if (phi_->value(here, report) < phi_->value(y, report)) y.swap(here);
+  }
+  minimizer_->minimize(y, report);
+  if (!report.converged) return;
+  method.finish(y, h, state_);
+  if (pins_.any()) {
+    pins_.place(end, state_.x);
+    if (!still) pins_.drive(end, state_.v);
+  }
+}
+
+void Simulation::explicit_step(double h, StepReport& report) {
+  method_.explicit_method->step(acceleration(h, report), h, state_);
   if (pins_.any()) {
     pins_.place(state_.t, state_.x);
-    for (size_t i = 0; i < pins_.fixed().size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      if (pins_.fixed()[i]) state_.v(k) = (state_.x(k) - x(k)) / h;
-    }
+    pins_.drive(state_.t, state_.v);
   }
 }
 
 Energies Simulation::energies() const {
   Energies e;
-  e.kinetic = 0.5 * parallel_sum(model_.vertices(), Work::kVector,
-                                 [&](int i) { return model_.masses(i) * state_.v.segment<3>(3 * i).squaredNorm(); });
+  e.kinetic = mass_ ? mass_->energy(state_.v) : phi_->mass().energy(state_.v);
   for (const auto& term : model_.potentials) {
     const double value = term->value(state_.x);
     if (term->kind() == EnergyKind::kElastic) e.elastic += value;
@@ -194,22 +200,29 @@ Energies Simulation::energies() const {
 }
 
 std::vector<double> Simulation::memory() const {
-  std::vector<double> saved{dissipated_};
-  if (newton_) {
-    const std::vector<double> linear = newton_->linear_solver().memory();
-    saved.insert(saved.end(), linear.begin(), linear.end());
+  const std::vector<double> history =
+      implicit() ? method_.implicit_method->memory() : method_.explicit_method->memory();
+  std::vector<double> saved{dissipated_, static_cast<double>(history.size())};
+  saved.insert(saved.end(), history.begin(), history.end());
+  if (minimizer_) {
+    const std::vector<double> minimizer = minimizer_->memory();
+    saved.insert(saved.end(), minimizer.begin(), minimizer.end());
   }
   return saved;
 }
 
 void Simulation::restore(const State& state, std::span<const double> memory) {
-  if (memory.empty()) throw std::invalid_argument("memory of another simulation");
+  const auto unfit = [] { throw std::invalid_argument("state or memory of another simulation"); };
+  if (memory.size() < 2 || state.x.size() != model_.x0.size() || state.v.size() != model_.x0.size()) unfit();
+  const auto history = static_cast<size_t>(memory[1]);
+  if (memory.size() < 2 + history) unfit();
   state_ = state;
   dissipated_ = memory[0];
-  if (newton_) {
-    newton_->prepare();
-    newton_->linear_solver().restore(memory.subspan(1));
-  }
+  if (implicit())
+    method_.implicit_method->restore(memory.subspan(2, history));
+  else
+    method_.explicit_method->restore(memory.subspan(2, history));
+  if (minimizer_) minimizer_->restore(memory.subspan(2 + history));
 }
 
 }  // namespace softreel::sim

@@ -8,20 +8,20 @@
 #include <vector>
 
 #include "sim/catalogue.h"
+#include "sim/incremental_potential.h"
+#include "sim/integrators.h"
+#include "sim/minimizer.h"
 #include "sim/model.h"
-#include "sim/newton.h"
 #include "sim/step_report.h"
 
 namespace softreel::sim {
 
-class ImplicitMethod;
-class ExplicitMethod;
-
 struct SimulationSettings {
-  std::string integrator = "implicit-euler";
-  std::string linear_solver = "auto";
-  NewtonSettings newton;
+  std::string integrator = "implicit-euler";  ///< of `integrators()`
+  std::string linear_solver = "auto";         ///< of `linear_solvers()`
+  MinimizerSettings minimizer;
   int max_halvings = 6;  ///< a step that does not converge is retried in halves, so many times over
+  double load_time = 0;  ///< of a static analysis: when gravity and loads have grown to their full size [s]
 };
 
 /// Energies of the whole scene [J].
@@ -38,9 +38,13 @@ class Simulation {
 
   const Model& model() const { return model_; }
   const State& state() const { return state_; }
-  bool implicit() const { return implicit_ != nullptr; }
+  bool implicit() const { return method_.implicit_method != nullptr; }
 
-  /// Goes on by h [s] > 0. If the report says that it did not converge, the state is what it was before.
+  /// Goes on by h [s] > 0. If the report says that it did not converge, the state is what it was before, and methods
+  /// that keep earlier steps start anew from it.
+  ///
+  /// A step in which a pin turns by more than 90 degrees is taken in as many equal ones as it needs: beyond 180 the
+  /// straight way of the pinned vertices goes through the body, which would end untwisted, wrong and calm.
   StepReport step(double h);
 
   Energies energies() const;
@@ -52,9 +56,12 @@ class Simulation {
  private:
   StepReport attempt(double h);
   StepReport step_in_halves(double h, int depth);
-  void begin_step(double h, StepReport& report);
+  StepContext context(const State& from, const Eigen::VectorXd& predicted, double h, double t_forces) const;
+  void begin_terms(const StepContext& context, StepReport& report);
+  Acceleration acceleration(double h, StepReport& report);
   void explicit_step(double h, StepReport& report);
   void implicit_step(double h, StepReport& report);
+  void forget();
 
   Model model_;
   Pins pins_;
@@ -63,14 +70,11 @@ class Simulation {
   double dissipated_ = 0;
   double nominal_ = 0;  ///< the step that was asked for [s]
   double extent_ = 0;   ///< diagonal of the scene at the start [m]
-  std::unique_ptr<ImplicitMethod> implicit_;
-  std::unique_ptr<ExplicitMethod> explicit_;
-  std::unique_ptr<IncrementalPotential> phi_;
-  std::unique_ptr<Newton> newton_;
+  Integrator method_;
+  std::unique_ptr<IncrementalPotential> phi_;  // of implicit methods
+  std::unique_ptr<Minimizer> minimizer_;
+  std::unique_ptr<MassMatrix> mass_;  // of explicit methods
   Eigen::VectorXd predicted_;
 };
-
-/// True if the integrator solves a system each step.
-bool is_implicit(std::string_view integrator);
 
 }  // namespace softreel::sim

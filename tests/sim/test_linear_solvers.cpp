@@ -38,7 +38,7 @@ System real_system(int cells, double young) {
   phi.stage().a = 120;
   phi.stage().beta = 1.0 / (120 * 120);
   StepReport report;
-  phi.hessian(x, s.A, report);
+  phi.hessian(x, Definiteness::kClamped, s.A, report);
   s.b = random_vector(x.size(), 1, 5);
   pins.zero(s.b);
   return s;

@@ -1,0 +1,184 @@
+#include "sim/minimizers/newton.h"
+
+#include <cmath>
+
+#include "sim/method_table.h"
+#include "sim/stopwatch.h"
+
+namespace softreel::sim {
+namespace {
+
+constexpr int kMostProposals = 4;  // of a direction in one iteration
+// A linear solve goes as far as the whole step needs, but no further than linear_tolerance at once: the
+// next Newton iteration has a better matrix.
+constexpr double kLinearShare = 0.3;
+// Shifts, relative to the mean of the diagonal.
+constexpr double kSmallestShift = 1e-8, kLargestShift = 1e6, kShiftGrowth = 10;
+
+struct Entry {
+  MethodInfo info;
+  Definiteness definiteness;
+};
+constexpr std::array kModifications = {
+    Entry{{"clamped", "negative eigenvalues of each element's Hessian set to zero", "none beside the element",
+           "Teran, Sifakis, Irving, Fedkiw 2005, section 6"},
+          Definiteness::kClamped},
+    Entry{{"shifted", "exact Hessian plus c I, c as large as needed", "1 factorization a trial of c",
+           "Nocedal, Wright 2006, section 3.4"},
+          Definiteness::kExact},
+};
+
+}  // namespace
+
+Catalogue hessian_modifications() { return catalogue_of<kModifications>(); }
+
+Newton::Newton(const Model& model, IncrementalPotential& phi, const std::string& linear_solver,
+               const MinimizerSettings& settings)
+    : model_(model),
+      phi_(phi),
+      settings_(settings),
+      definiteness_(find_method(kModifications, settings.hessian, "Hessian").definiteness),
+      linear_(make_linear_solver(linear_solver)),
+      test_(model, phi, settings),
+      search_(phi, settings.line_search) {}
+
+/// Builds the pattern and the symbolic work before the first step needs it (a resumed run restores into it).
+void Newton::prepare() {
+  if (analysed_) return;
+  StepReport ignored;
+  Stage& stage = phi_.stage();
+  stage.y_tilde = model_.x0;
+  stage.b = Eigen::VectorXd::Zero(model_.x0.size());
+  stage.beta = stage.a = 0;
+  phi_.hessian(model_.x0, definiteness_, H_, ignored);
+  linear_->analyse(H_);
+  analysed_ = true;
+}
+
+std::vector<double> Newton::memory() const {
+  std::vector<double> saved{shift_};
+  const std::vector<double> linear = linear_->memory();
+  saved.insert(saved.end(), linear.begin(), linear.end());
+  return saved;
+}
+
+void Newton::restore(std::span<const double> saved) {
+  if (saved.empty()) throw std::invalid_argument("memory of another minimizer");
+  prepare();
+  shift_ = saved[0];
+  linear_->restore(saved.subspan(1));
+}
+
+void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
+  const auto fail = [&](const std::string& why) {
+    report.converged = false;
+    report.reason = why;
+  };
+  phi_.gradient(y, g_, report);
+  test_.start(y, g_);
+  for (int iteration = 0;; ++iteration) {
+    const bool stop_after_step = !test_.fired().empty();
+    std::string failure = test_.look(g_);
+    if (!failure.empty()) return fail(failure);
+    if (stop_after_step || !test_.fired().empty()) {
+      report.residual = std::max(report.residual, test_.residual());
+      report.stopped_by = test_.fired();
+      return;
+    }
+    if (iteration == settings_.max_iterations)
+      return fail("Newton's method did not converge in " + std::to_string(iteration) + " iterations on '" +
+                  test_.slowest() + "'");
+    ++report.newton_iterations;
+    if (!step(y, report, failure)) return fail(failure);
+    phi_.gradient(y, g_, report);
+  }
+}
+
+/// One iteration from y, where the gradient is g_. Returns false, with the reason, if no way down was found.
+bool Newton::step(Eigen::VectorXd& y, StepReport& report, std::string& failure) {
+  phi_.soften();
+  const auto model_at = [&] {
+    phi_.hessian(y, definiteness_, H_, report);
+    applied_shift_ = 0;
+    test_.see_hessian(H_, y);
+  };
+  model_at();
+  model_gradient_ = g_;
+  bool found = direction(y, report, failure);
+  bool hardened = false;
+  for (int proposal = 1; found && proposal < kMostProposals && phi_.harden(y, d_); ++proposal) {
+    hardened = true;
+    model_at();
+    model_gradient_ = g_;
+    phi_.add_hardened_gradient(y, model_gradient_);
+    found = direction(y, report, failure);
+  }
+  while (true) {
+    if (found) {
+      const double slope = g_.dot(d_);
+      test_.look_at_slope(slope);
+      const double length = slope < 0 ? search_.along(d_, slope, test_.value_rounding(), 1, y, report) : 0;
+      if (length > 0) {
+        test_.look_at_step(y, d_, length >= 1);
+        shift_ = shift_ > kSmallestShift ? shift_ / kShiftGrowth : 0;
+        return true;
+      }
+      failure = slope < 0 ? "the line search found no lower energy" : "the search direction does not go downhill";
+    }
+    if (hardened) {  // the plain Newton direction goes downhill in any case
+      hardened = false;
+      phi_.soften();
+      model_at();
+      model_gradient_ = g_;
+    } else if (!shift_more()) {
+      return false;
+    }
+    found = direction(y, report, failure);
+  }
+}
+
+/// A larger c. Returns false at its end.
+bool Newton::shift_more() {
+  if (shift_ >= kLargestShift) {
+    shift_ = 0;
+    return false;
+  }
+  shift_ = std::max(kSmallestShift, kShiftGrowth * shift_);
+  return true;
+}
+
+/// How far a linear solve with the model's gradient has to go.
+std::vector<double> Newton::linear_targets() const {
+  std::vector<double> result = test_.body_norms(model_gradient_);
+  for (size_t b = 0; b < result.size(); ++b)
+    result[b] = std::max(kLinearShare * test_.targets()[b], settings_.linear_tolerance * result[b]);
+  return result;
+}
+
+/// d := -(H + c I)^-1 g of the model. Returns false, with the reason, if there is none with any c.
+bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string& failure) {
+  const Stopwatch watch(report.seconds.solve);
+  if (!analysed_) {
+    linear_->analyse(H_);
+    analysed_ = true;
+  }
+  const std::vector<double> targets = linear_targets();
+  double mean = 0;
+  for (const int k : H_.diagonal) mean += H_.block(k).trace() / (3.0 * H_.rows());
+  mean -= applied_shift_;
+  while (true) {
+    if (const double c = shift_ * mean; c != applied_shift_) {
+      for (const int k : H_.diagonal) H_.block(k).diagonal().array() += c - applied_shift_;
+      applied_shift_ = c;
+    }
+    linear_->factorize(H_);
+    const LinearReport linear = linear_->solve(-model_gradient_, {model_.bodies, targets, &y, &phi_.held()}, d_);
+    report.linear_iterations += linear.iterations;
+    report.solver = linear.chosen;
+    if (linear.ok) return true;
+    failure = "the linear solver failed: " + linear.reason;
+    if (!linear.indefinite || !shift_more()) return false;
+  }
+}
+
+}  // namespace softreel::sim
