@@ -4,19 +4,16 @@
 #include "app/arguments.h"
 #include "app/bill.h"
 #include "app/exit_code.h"
+#include "app/method_list.h"
 #include "assets/error.h"
 #include "assets/scene_reader.h"
 #include "assets/scene_reference.h"
-#include "sim/linear_solver.h"
-#include "sim/membrane.h"
-#include "sim/simulation.h"
-#include "sim/solid.h"
 
 namespace softreel::app {
 
 int run_check(const CheckArguments& a) {
   if (a.list) {
-    fmt::print("{}\n{}", assets::scene_choices_text(), assets::scene_reference_markdown());
+    fmt::print("{}{}\n{}", method_list_text(), assets::scene_choices_text(), assets::scene_reference_markdown());
     return kDone;
   }
   if (a.scene.empty())

@@ -15,7 +15,9 @@ namespace {
 
 [[noreturn]] void give_up(const assets::Scene& scene, int frame, const sim::StepReport& report, bool implicit) {
   const std::string what_to_do =
-      implicit
+      scene.time.integrator == "static"
+          ? "more time.substeps make the load grow in smaller parts; solver.max_iterations allows more of them"
+      : implicit
           ? "more time.substeps, softer materials or slower motions help; time.max_halvings allows more halving"
           : "raise time.substeps, soften the materials, or take time.integrator = \"implicit-euler\", which has no "
             "stability limit";

@@ -32,6 +32,8 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
       j["left_out"][item.feature] = item.why;
   }
   if (!run.clip.solver.empty()) j["solver"]["chosen"] = run.clip.solver;
+  if (!run.clip.total.stopped_by.empty()) j["solver"]["stopped_by"] = run.clip.total.stopped_by;
+  if (run.clip.total.descent_iterations > 0) j["descent_iterations"] = run.clip.total.descent_iterations;
   // Meshes that this run did not load are not counted.
   if (run.vertices > 0) j["vertices"] = run.vertices;
   if (run.triangles > 0) {
@@ -116,6 +118,10 @@ std::string summary(const RunFigures& run) {
   if (run.simulated && run.clip.total.newton_iterations > 0)
     text += fmt::format("\n{} steps, {} retried, {} Newton iterations; worst residual {:.1e} of the forces of its step",
                         run.clip.total.steps, run.clip.total.retries, run.clip.total.newton_iterations,
+                        run.clip.total.residual);
+  else if (run.simulated && run.clip.total.descent_iterations > 0)
+    text += fmt::format("\n{} steps, {} retried, {} iterations of the minimizer; worst residual {:.1e}",
+                        run.clip.total.steps, run.clip.total.retries, run.clip.total.descent_iterations,
                         run.clip.total.residual);
   else if (run.simulated)
     text += fmt::format("\n{} steps, {} retried", run.clip.total.steps, run.clip.total.retries);

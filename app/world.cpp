@@ -7,6 +7,7 @@
 #include "app/placement.h"
 #include "assets/error.h"
 #include "assets/scene_names.h"
+#include "sim/free_bodies.h"
 #include "sim/model_builder.h"
 #include "sim/motion.h"
 
@@ -109,12 +110,27 @@ void add_cloth(const assets::Scene& scene, const assets::Cloth& cloth, const Clo
       m.bending = cloth.material.bending;
       m.bending_model = bending_model(cloth.bending_model);
       m.areal_density = cloth.areal_density();
+      m.consistent_mass = cloth.mass == assets::MassModel::kConsistent;
       range = builder.add_membrane(cloth.name, shape.rest, m);
     }
   } catch (const std::invalid_argument& e) {
     throw UserError(ErrorKind::kInput, scene.file.string(), fmt::format("cloth '{}': {}", cloth.name, e.what()));
   }
   finish_body(scene, cloth, shape.rest.vertices, range, builder);
+}
+
+/// An equilibrium of what can drift away does not exist, or is any place at all.
+void refuse_free_bodies(const assets::Scene& scene, const sim::Model& model) {
+  const std::vector<sim::FreeBody> free = sim::free_bodies(model);
+  if (free.empty()) return;
+  std::string list;
+  for (const sim::FreeBody& body : free)
+    list += fmt::format("{}'{}' along {}", list.empty() ? "" : ", ", body.name, body.axes);
+  throw UserError(
+      ErrorKind::kUsage, scene.file.string(),
+      fmt::format("time.integrator = \"static\" needs bodies that are held, and these are free to move: {}. "
+                  "Pin some of their vertices (pins = [{{ box = ... }}]), or take another integrator",
+                  list));
 }
 
 }  // namespace
@@ -150,27 +166,36 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
   for (size_t i = 0; i < scene.soft.size(); ++i) {
     const assets::SoftBody& soft = scene.soft[i];
     const sim::TetMesh& rest = shapes.soft[i].rest;
-    const sim::BodyRange range = builder.add_solid(
-        soft.name, rest, {soft.material.model, soft.material.young, soft.material.poisson, soft.density});
+    const sim::BodyRange range = builder.add_solid(soft.name, rest,
+                                                   {soft.material.model, soft.material.young, soft.material.poisson,
+                                                    soft.density, soft.mass == assets::MassModel::kConsistent});
     finish_body(scene, soft, rest.vertices, range, builder);
   }
   for (size_t i = 0; i < scene.cloth.size(); ++i) add_cloth(scene, scene.cloth[i], shapes.cloth[i], builder);
   std::vector<sim::Collider> colliders;
   for (const assets::Collider& c : scene.colliders) colliders.push_back(make_collider(c));
-  return builder.finish(scene.gravity, {scene.damping.drag, scene.damping.alpha, scene.damping.beta},
-                        std::move(colliders),
-                        {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0),
-                         sim::is_implicit(scene.time.integrator) ? 100.0 : sim::kExplicitHardness});
+  sim::Model model =
+      builder.finish(scene.gravity, {scene.damping.drag, scene.damping.alpha, scene.damping.beta}, std::move(colliders),
+                     {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0),
+                      sim::is_implicit(scene.time.integrator) ? 100.0 : sim::kExplicitHardness});
+  if (scene.time.integrator == "static") refuse_free_bodies(scene, model);
+  return model;
 }
 
 sim::SimulationSettings simulation_settings(const assets::Scene& scene) {
   sim::SimulationSettings s;
   s.integrator = scene.time.integrator;
   s.linear_solver = scene.solver.linear;
+  s.minimizer.method = scene.solver.method;
+  s.minimizer.hessian = scene.solver.hessian;
+  s.minimizer.line_search = scene.solver.line_search;
+  s.minimizer.stop = scene.solver.stop;
   s.minimizer.tolerance = scene.solver.tolerance;
   s.minimizer.max_iterations = scene.solver.max_iterations;
   s.minimizer.linear_tolerance = scene.solver.linear_tolerance;
   s.max_halvings = scene.time.max_halvings;
+  // The last frame shows the full load.
+  if (scene.time.integrator == "static") s.load_time = (scene.time.frames() - 1) / scene.time.fps;
   return s;
 }
 

@@ -21,8 +21,8 @@ struct Color {
   bool operator==(const Color&) const = default;
 };
 
-enum class Minimizer { kNewton };
 enum class ClothModel { kMembrane, kMassSpring };
+enum class MassModel { kLumped, kConsistent };
 enum class BendingModel { kAuto, kQuadratic, kDiscreteShell };  ///< kAuto: quadratic where flat at rest
 enum class TetrahedralizeMode { kConform };
 enum class UpAxis { kX, kY, kZ };
@@ -42,11 +42,14 @@ struct Time {
 };
 
 struct Solver {
-  Minimizer method = Minimizer::kNewton;
-  std::string linear = "auto";     ///< of sim::linear_solvers()
-  double tolerance = 1e-3;         ///< of a step, relative to the motion it has to produce [-]
-  double linear_tolerance = 1e-4;  ///< of a linear solve by iteration, relative residual [-]
-  int max_iterations = 50;         ///< of the minimizer, per step
+  std::string method = "newton";             ///< of sim::minimizers()
+  std::string hessian = "auto";              ///< of sim::hessian_modifications()
+  std::string line_search = "backtracking";  ///< of sim::line_searches()
+  std::string stop = "residual";             ///< of sim::stopping_tests()
+  std::string linear = "auto";               ///< of sim::linear_solvers()
+  double tolerance = 1e-3;                   ///< of a step, relative to the motion it has to produce [-]
+  double linear_tolerance = 1e-4;            ///< of a linear solve by iteration, relative residual [-]
+  int max_iterations = 50;                   ///< of the minimizer, per step
 };
 
 /// Placement of a body or collider: scale, then rotate (Euler angles, about x first, then y, then z), both about
@@ -145,6 +148,7 @@ struct Body {
   std::string name;  ///< unique among bodies and colliders; made up ("soft-1") when the file gives none
   MeshSource mesh;
   Transform transform;
+  MassModel mass = MassModel::kLumped;
   Vec3 velocity = Vec3::Zero();  ///< at t = 0 [m/s]
   Vec3 spin = Vec3::Zero();      ///< at t = 0 [deg/s], about the world axes through the centre of mass
   std::vector<Pin> pins;

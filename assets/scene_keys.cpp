@@ -19,12 +19,19 @@ void walk(KeyVisitor& v, Time& t) {
 }
 
 void walk(KeyVisitor& v, Solver& s) {
-  v.key({"method", kPhysics, "", {}, "minimizer of an implicit step"}, choice(s.method));
+  v.key({"method", kPhysics, "", {}, "minimizer of an implicit step"}, MethodRef{&s.method, sim::minimizers()});
+  v.key({"hessian", kPhysics, "", {}, "how newton makes its matrix positive definite"},
+        MethodRef{&s.hessian, sim::hessian_modifications()});
+  v.key({"line_search", kPhysics, "", {}, "how far newton and gradient-descent go along a direction"},
+        MethodRef{&s.line_search, sim::line_searches()});
+  v.key({"stop", kPhysics, "", {}, "what has to be small, relative to what it was, for the minimizer to stop"},
+        MethodRef{&s.stop, sim::stopping_tests()});
   v.key({"linear", kPhysics, "", {}, "linear solver; auto chooses by size and stiffness"},
         MethodRef{&s.linear, sim::linear_solvers()});
   v.key({"tolerance", kPhysics, "", kTolerance, "of a step, relative to the motion it has to produce"}, &s.tolerance);
   v.key({"linear_tolerance", kPhysics, "", kTolerance, "relative residual at which cg stops"}, &s.linear_tolerance);
   v.key({"max_iterations", kPhysics, "", between(1, 100000), "of the minimizer, per step"}, &s.max_iterations);
+  if (v.reading()) check(v, s);
 }
 
 void walk(KeyVisitor& v, Contact& c) {

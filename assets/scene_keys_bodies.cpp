@@ -31,6 +31,8 @@ void walk_motion(KeyVisitor& v, std::vector<MotionKey>& motion, const char* help
 
 void walk_body(KeyVisitor& v, Body& b) {
   walk_transform(v, b.transform);
+  v.key({"mass", kPhysics, "", {}, "matrix of the mass: one mass per vertex, or that of the finite elements"},
+        choice(b.mass));
   v.key({"velocity", kPhysics, "m/s", kSpeed, "at t = 0"}, &b.velocity);
   v.key({"spin", kPhysics, "deg/s", kTurns, "at t = 0, about the world's axes through the centre of mass"}, &b.spin);
   v.list({"pins", "vertices that are held or driven"}, keys_of(b.pins));

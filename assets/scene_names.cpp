@@ -8,7 +8,7 @@ namespace {
 template <size_t n>
 using Array = std::array<std::string_view, n>;
 
-constexpr Array<1> kMinimizer = {"newton"};
+constexpr Array<2> kMassModel = {"lumped", "consistent"};
 constexpr Array<2> kClothModel = {"membrane", "mass-spring"};
 constexpr Array<3> kBendingModel = {"auto", "quadratic", "discrete-shell"};
 constexpr Array<1> kTetrahedralizeMode = {"conform"};
@@ -18,7 +18,7 @@ constexpr Array<2> kLightKind = {"area", "sun"};
 constexpr Array<3> kGroundMode = {"auto", "on", "off"};
 }  // namespace
 
-Names names_of(Minimizer) { return kMinimizer; }
+Names names_of(MassModel) { return kMassModel; }
 Names names_of(ClothModel) { return kClothModel; }
 Names names_of(BendingModel) { return kBendingModel; }
 Names names_of(TetrahedralizeMode) { return kTetrahedralizeMode; }

@@ -9,7 +9,7 @@ namespace softreel::assets {
 
 using Names = std::span<const std::string_view>;
 
-Names names_of(Minimizer);
+Names names_of(MassModel);
 Names names_of(ClothModel);
 Names names_of(BendingModel);
 Names names_of(TetrahedralizeMode);

@@ -52,9 +52,60 @@ void check_names(KeyVisitor& v, const Scene& scene) {
   collect(scene.colliders, "collider");
 }
 
+template <class Visit>
+void for_each_body(const Scene& scene, const Visit& visit) {
+  for (size_t i = 0; i < scene.soft.size(); ++i) visit(fmt::format("soft.{}", i + 1), scene.soft[i]);
+  for (size_t i = 0; i < scene.cloth.size(); ++i) visit(fmt::format("cloth.{}", i + 1), scene.cloth[i]);
+}
+
+// An equilibrium knows no velocity: what depends on one would be ignored.
+void check_static(KeyVisitor& v, const Scene& scene) {
+  if (scene.time.integrator != "static") return;
+  const auto refuse = [&](const std::string& key) {
+    if (v.given(key)) v.problem(key, "has no effect with time.integrator = \"static\", which knows no velocity");
+  };
+  refuse("damping");
+  for_each_body(scene, [&](const std::string& place, const Body&) {
+    refuse(place + ".velocity");
+    refuse(place + ".spin");
+    refuse(place + ".spring_damping");
+  });
+  if (scene.time.frames() < 2)
+    v.problem("time.duration",
+              "is one frame, of the bodies before any load; time.integrator = \"static\" needs at least two, in which "
+              "the loads grow");
+  if (scene.solver.method == "fixed-point")
+    v.problem("solver.method", "fixed-point divides by the mass, which does not count in an equilibrium; take newton");
+}
+
+void check_consistent_mass(KeyVisitor& v, const Scene& scene) {
+  if (scene.time.integrator.empty() || sim::is_implicit(scene.time.integrator)) return;
+  for_each_body(scene, [&](const std::string& place, const Body& body) {
+    if (body.mass != MassModel::kConsistent) return;
+    for (size_t p = 0; p < body.pins.size(); ++p)
+      if (!body.pins[p].motion.empty())
+        v.problem(fmt::format("{}.pins.{}.motion", place, p + 1),
+                  fmt::format("drives a body of consistent mass, whose neighbours would feel how the pin accelerates; "
+                              "{} leaves that out. Take mass = \"lumped\" or an implicit time.integrator",
+                              scene.time.integrator));
+  });
+}
+
 }  // namespace
 
-void check(KeyVisitor& v, const Scene& scene) { check_names(v, scene); }
+void check(KeyVisitor& v, const Solver& s) {
+  const bool newton = s.method == "newton";
+  only_for(v, newton, {"hessian", "linear", "linear_tolerance"}, "is for method = \"newton\"");
+  only_for(v, s.method != "fixed-point", {"line_search"}, "is for method = \"newton\" or \"gradient-descent\"");
+  if (!newton && s.stop == "decrement")
+    v.problem("stop", "decrement is Newton's; with this method expected \"residual\" or \"step\"");
+}
+
+void check(KeyVisitor& v, const Scene& scene) {
+  check_names(v, scene);
+  check_static(v, scene);
+  check_consistent_mass(v, scene);
+}
 
 void check(KeyVisitor& v, const Time& time) {
   const double frames = time.duration * time.fps;

@@ -5,6 +5,7 @@
 namespace softreel::assets {
 
 void check(KeyVisitor& v, const Scene& scene);
+void check(KeyVisitor& v, const Solver& solver);
 void check(KeyVisitor& v, const Time& time);
 void check(KeyVisitor& v, const Block& block);
 void check(KeyVisitor& v, const Grid& grid);

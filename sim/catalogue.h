@@ -19,6 +19,8 @@ using Catalogue = std::span<const MethodInfo>;
 Catalogue solid_materials();
 Catalogue membrane_materials();
 Catalogue integrators();
+/// True if the integrator solves a system each step; `name` is one of `integrators()`.
+bool is_implicit(std::string_view integrator);
 Catalogue minimizers();
 Catalogue hessian_modifications();
 Catalogue line_searches();

@@ -10,8 +10,8 @@
 
 namespace softreel::sim {
 
-/// The names of `MinimizerSettings::stop`. All are relative to the motion that the step has to produce, so they hold for
-/// stiff bodies too, where a step of 1e-6 m is the whole answer:
+/// The names of `MinimizerSettings::stop`. All are relative to the motion that the step has to produce, so they hold
+/// for stiff bodies too, where a step of 1e-6 m is the whole answer:
 ///   residual:  |g| <= tolerance |g0| for every body, g0 the gradient at the start of the solve;
 ///   decrement: lambda <= tolerance lambda_0, lambda^2 = g^T H^-1 g the Newton decrement, lambda_0 the first one;
 ///   step:      |d| <= tolerance |y - y_0| for every body, d the last full step; judged after it was taken.

@@ -18,7 +18,4 @@ struct Integrator {
 /// `name`: of `integrators()`. Throws std::invalid_argument for an unknown one.
 Integrator make_integrator(std::string_view name);
 
-/// True if the integrator solves a system each step.
-bool is_implicit(std::string_view integrator);
-
 }  // namespace softreel::sim

@@ -17,8 +17,8 @@ class LineSearch {
   /// Throws std::invalid_argument for an unknown name.
   LineSearch(IncrementalPotential& phi, const std::string& name);
 
-  /// y += s d with s <= first, for a slope g.d < 0; `rounding`: that of Phi's value. Returns s, 0 if no step lowers Phi.
-  /// An exact search may go beyond `first`.
+  /// y += s d with s <= first, for a slope g.d < 0; `rounding`: that of Phi's value. Returns s, 0 if no step lowers
+  /// Phi. An exact search may go beyond `first`.
   double along(const Eigen::VectorXd& d, double slope, double rounding, double first, Eigen::VectorXd& y,
                StepReport& report);
 

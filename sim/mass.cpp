@@ -61,9 +61,8 @@ std::unique_ptr<EnergyTerm> make_mass_correction(const TriangleMesh& rest, doubl
 MassMatrix::MassMatrix(const Model& model, const std::vector<std::uint8_t>& held) : model_(model), held_(held) {}
 
 double MassMatrix::energy(const Eigen::VectorXd& q) const {
-  double sum = 0.5 * parallel_sum(model_.vertices(), Work::kVector, [&](int i) {
-                 return model_.masses(i) * q.segment<3>(3 * i).squaredNorm();
-               });
+  double sum = 0.5 * parallel_sum(model_.vertices(), Work::kVector,
+                                  [&](int i) { return model_.masses(i) * q.segment<3>(3 * i).squaredNorm(); });
   for (const auto& term : model_.mass_corrections) sum += term->value(q);
   return sum;
 }

@@ -14,11 +14,11 @@ namespace softreel::sim {
 struct MinimizerSettings {
   double tolerance = 1e-3;  ///< relative to the motion that the step has to produce, see ConvergenceTest
   int max_iterations = 60;
-  double linear_tolerance = 1e-3;          ///< of one iterative linear solve, relative
-  std::string method = "newton";           ///< of `minimizers()`
-  std::string hessian = "clamped";         ///< of `hessian_modifications()`
+  double linear_tolerance = 1e-3;            ///< of one iterative linear solve, relative
+  std::string method = "newton";             ///< of `minimizers()`
+  std::string hessian = "auto";              ///< of `hessian_modifications()`
   std::string line_search = "backtracking";  ///< of `line_searches()`
-  std::string stop = "residual";           ///< of `stopping_tests()`
+  std::string stop = "residual";             ///< of `stopping_tests()`
 };
 
 class Minimizer {
@@ -35,7 +35,7 @@ class Minimizer {
 
 /// `model` and `phi` must outlive the minimizer. Throws std::invalid_argument for unknown names and for settings that
 /// do not go together.
-std::unique_ptr<Minimizer> make_minimizer(const Model& model, IncrementalPotential& phi, const std::string& linear_solver,
-                                          const MinimizerSettings& settings);
+std::unique_ptr<Minimizer> make_minimizer(const Model& model, IncrementalPotential& phi,
+                                          const std::string& linear_solver, const MinimizerSettings& settings);
 
 }  // namespace softreel::sim

@@ -17,15 +17,14 @@ constexpr double kSmallestShift = 1e-8, kLargestShift = 1e6, kShiftGrowth = 10;
 
 struct Entry {
   MethodInfo info;
-  Definiteness definiteness;
 };
+// In the order of Newton::Modification.
 constexpr std::array kModifications = {
+    Entry{{"auto", "shifted for static, clamped for motion", "as the one it takes", ""}},
     Entry{{"clamped", "negative eigenvalues of each element's Hessian set to zero", "none beside the element",
-           "Teran, Sifakis, Irving, Fedkiw 2005, section 6"},
-          Definiteness::kClamped},
+           "Teran, Sifakis, Irving, Fedkiw 2005, section 6"}},
     Entry{{"shifted", "exact Hessian plus c I, c as large as needed", "1 factorization a trial of c",
-           "Nocedal, Wright 2006, section 3.4"},
-          Definiteness::kExact},
+           "Nocedal, Wright 2006, section 3.4"}},
 };
 
 }  // namespace
@@ -37,7 +36,8 @@ Newton::Newton(const Model& model, IncrementalPotential& phi, const std::string&
     : model_(model),
       phi_(phi),
       settings_(settings),
-      definiteness_(find_method(kModifications, settings.hessian, "Hessian").definiteness),
+      modification_(
+          static_cast<Modification>(&find_method(kModifications, settings.hessian, "Hessian") - kModifications.data())),
       linear_(make_linear_solver(linear_solver)),
       test_(model, phi, settings),
       search_(phi, settings.line_search) {}
@@ -74,6 +74,9 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
     report.converged = false;
     report.reason = why;
   };
+  const bool still = phi_.stage().inertia == 0;
+  const bool shifted = modification_ == Modification::kShifted || (modification_ == Modification::kAuto && still);
+  definiteness_ = shifted ? Definiteness::kExact : Definiteness::kClamped;
   phi_.gradient(y, g_, report);
   test_.start(y, g_);
   for (int iteration = 0;; ++iteration) {

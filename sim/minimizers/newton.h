@@ -14,14 +14,17 @@ namespace softreel::sim {
 
 /// Each iteration solves H d = -g and searches along d.
 ///
-/// `hessian = "clamped"`: every element's Hessian is made positive semi-definite by itself, which costs nothing beside
-/// the element and seldom loses much. "shifted": the exact Hessian plus c I (Nocedal and Wright 2006, section 3.4), c
-/// growing tenfold until the factorization succeeds and the search goes down, and falling again when it does. The
-/// clamped one is shifted too where it is singular (a free body at rest, a slack sheet in equilibrium).
+/// `hessian = "auto"`: shifted for an equilibrium, where elements under load make the clamped one lose its quadratic
+/// convergence, clamped for motion. "clamped": every element's Hessian is made positive semi-definite by itself, which
+/// costs nothing beside the element and seldom loses much. "shifted": the exact Hessian plus c I (Nocedal and Wright
+/// 2006, section 3.4), c growing tenfold until the factorization succeeds and the search goes down, and falling again
+/// when it does. The clamped one is shifted too where it is singular (a free body at rest, a slack sheet in
+/// equilibrium).
 class Newton final : public Minimizer {
  public:
   static constexpr MethodInfo kInfo = {"newton", "few iterations at any stiffness",
-                                       "1 Hessian and 1 linear solve an iteration", "Nocedal, Wright 2006, section 3.3"};
+                                       "1 Hessian and 1 linear solve an iteration",
+                                       "Nocedal, Wright 2006, section 3.3"};
 
   Newton(const Model& model, IncrementalPotential& phi, const std::string& linear_solver,
          const MinimizerSettings& settings);
@@ -40,7 +43,8 @@ class Newton final : public Minimizer {
   const Model& model_;
   IncrementalPotential& phi_;
   MinimizerSettings settings_;
-  Definiteness definiteness_;
+  enum class Modification { kAuto, kClamped, kShifted } modification_;
+  Definiteness definiteness_ = Definiteness::kClamped;
   std::unique_ptr<LinearSolver> linear_;
   ConvergenceTest test_;
   LineSearch search_;

@@ -14,8 +14,8 @@ struct Problem {
   const char* name;
   std::function<Model()> make;
   double duration;
-  int steps;           // of the coarsest run
-  double rate;         // makes velocities comparable with positions [1/s]
+  int steps;    // of the coarsest run
+  double rate;  // makes velocities comparable with positions [1/s]
 };
 
 /// One mass on a spring along x: linear.
@@ -78,10 +78,17 @@ const std::vector<Problem> kProblems = {
     {"linear oscillator", [] { return linear_oscillator(0); }, 1.0, 25, 6.3},
     {"damped linear oscillator", [] { return linear_oscillator(0.8); }, 1.0, 25, 6.3},
     {"spring pendulum", [] { return spring_pendulum({}); }, 1.0, 25, 7.7},
-    {"spring pendulum with drag, spring and Rayleigh damping", [] { return spring_pendulum({0.1, 0.1, 0.01}); }, 1.0, 25,
-     7.7},
+    {"spring pendulum with drag, spring and Rayleigh damping",
+     [] {
+       return spring_pendulum({0.1, 0.1, 0.01});
+     },
+     1.0, 25, 7.7},
     {"cloth", [] { return cloth({}); }, 0.4, 20, 10},
-    {"cloth with drag and Rayleigh damping", [] { return cloth({0.5, 0.3, 0.01}); }, 0.4, 20, 10},
+    {"cloth with drag and Rayleigh damping",
+     [] {
+       return cloth({0.5, 0.3, 0.01});
+     },
+     0.4, 20, 10},
 };
 
 }  // namespace

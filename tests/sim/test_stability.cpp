@@ -17,12 +17,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // For the undamped oscillator (Hairer, Lubich, Wanner 2006; Hairer, Norsett, Wanner 1993).
 const std::map<std::string_view, double> kLimits = {
-    {"forward-euler", 0},       {"heun", 0},
-    {"midpoint", 0},            {"rk4", 2 * std::numbers::sqrt2},
-    {"symplectic-euler", 2},    {"symplectic-euler-position", 2},
-    {"verlet", 2},              {"leapfrog", 2},
-    {"implicit-euler", kInfinity}, {"newmark", kInfinity},
-    {"implicit-midpoint", kInfinity}, {"bdf2", kInfinity},
+    {"forward-euler", 0},
+    {"heun", 0},
+    {"midpoint", 0},
+    {"rk4", 2 * std::numbers::sqrt2},
+    {"symplectic-euler", 2},
+    {"symplectic-euler-position", 2},
+    {"verlet", 2},
+    {"leapfrog", 2},
+    {"implicit-euler", kInfinity},
+    {"newmark", kInfinity},
+    {"implicit-midpoint", kInfinity},
+    {"bdf2", kInfinity},
 };
 
 /// The amplitude of the oscillator of h omega after so many steps, relative to that at the start.
