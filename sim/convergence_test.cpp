@@ -98,6 +98,7 @@ std::string ConvergenceTest::look(const Eigen::VectorXd& g) {
     // Where the floor at rounding decides, there are no forces to compare with.
     if (targets_[b] > floors_[b]) residual_ = std::max(residual_, norms_[b] / g0_[b]);
   }
+  if (!fired_.empty()) return {};  // by the last direction or step
   if (at_rest)
     fired_ = "rounding";
   else if (met && test_ == StoppingTest::kResidual)

@@ -20,8 +20,7 @@ std::vector<FreeBody> free_bodies(const Model& model) {
     const auto k = static_cast<size_t>(term->stencil_size());
     const auto stencils = term->stencils();
     for (size_t e = 0; k > 1 && e < stencils.size() / k; ++e)
-      for (size_t a = 1; a < k; ++a)
-        parent[static_cast<size_t>(root(stencils[e * k + a]))] = root(stencils[e * k]);
+      for (size_t a = 1; a < k; ++a) parent[static_cast<size_t>(root(stencils[e * k + a]))] = root(stencils[e * k]);
   }
   std::vector<std::array<bool, 3>> held(parent.size(), {false, false, false});  // of each root
   for (const Pin& pin : model.pins)

@@ -7,7 +7,7 @@ namespace softreel::sim {
 /// Backward Euler: y_tilde = x + h v, beta = h^2; x' = y, v' = (y - x)/h.
 class ImplicitEuler final : public ImplicitMethod {
  public:
-  static constexpr MethodInfo kInfo = {"implicit-euler", "never gains energy; damps motion of a few steps' period",
+  static constexpr MethodInfo kInfo = {"implicit-euler", "calm at any stiffness; damps motion of a few steps' period",
                                        "1 minimization a step (gradient, Hessian)",
                                        "Baraff, Witkin 1998; Gast et al. 2015", 1};
   void predict(const State& s, double h, const Acceleration&, Stage& stage) override {

@@ -8,6 +8,7 @@
 #include "sim/model_builder.h"
 #include "sim/simulation.h"
 #include "tests/sim/derivatives.h"
+#include "tests/sim/support.h"
 
 using namespace softreel::sim;
 using namespace softreel::tests;
@@ -15,32 +16,6 @@ using namespace softreel::tests;
 namespace {
 
 const Vec3 kGravity(0, -9.81, 0);
-
-Pin pin_where(const std::vector<Vec3>& vertices, const auto& inside) {
-  Pin pin;
-  for (size_t i = 0; i < vertices.size(); ++i)
-    if (inside(vertices[i])) pin.vertices.push_back(static_cast<int>(i));
-  return pin;
-}
-
-Vec3 centre_of_mass(const Simulation& s) {
-  Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < s.model().vertices(); ++i) sum += s.model().masses(i) * s.state().x.segment<3>(3 * i);
-  return sum / s.model().masses.sum();
-}
-
-Vec3 momentum(const Simulation& s) {
-  Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < s.model().vertices(); ++i) sum += s.model().masses(i) * s.state().v.segment<3>(3 * i);
-  return sum;
-}
-
-void must_step(Simulation& s, double h, int steps) {
-  for (int i = 0; i < steps; ++i) {
-    const StepReport r = s.step(h);
-    REQUIRE_MESSAGE(r.converged, r.reason);
-  }
-}
 
 /// Steps until nothing moves any more, relative to `length` per second.
 void must_settle(Simulation& s, double h, double length, int most) {
