@@ -8,7 +8,9 @@
 namespace softreel::sim {
 namespace {
 
-constexpr int kMostProposals = 4;  // of a direction in one iteration
+constexpr int kClampedIterations = 8;  // of a solve, after which clamping may be what slows it down
+constexpr int kClampedAgain = 4;       // after an exact Hessian that was indefinite
+constexpr int kMostProposals = 4;      // of a direction in one iteration
 // A linear solve goes as far as the whole step needs, but no further than linear_tolerance at once: the
 // next Newton iteration has a better matrix.
 constexpr double kLinearShare = 0.3;
@@ -20,7 +22,8 @@ struct Entry {
 };
 // In the order of Newton::Modification.
 constexpr std::array kModifications = {
-    Entry{{"auto", "shifted for static, clamped for motion", "as the one it takes", ""}},
+    Entry{{"auto", "clamped at first, then exact where that is positive definite", "as the one it takes",
+           "Longva et al. 2023"}},
     Entry{{"clamped", "negative eigenvalues of each element's Hessian set to zero", "none beside the element",
            "Teran, Sifakis, Irving, Fedkiw 2005, section 6"}},
     Entry{{"shifted", "exact Hessian plus c I, c as large as needed", "1 factorization a trial of c",
@@ -74,9 +77,8 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
     report.converged = false;
     report.reason = why;
   };
-  const bool still = phi_.stage().inertia == 0;
-  const bool shifted = modification_ == Modification::kShifted || (modification_ == Modification::kAuto && still);
-  definiteness_ = shifted ? Definiteness::kExact : Definiteness::kClamped;
+  next_exact_ = kClampedIterations;
+  definiteness_ = modification_ == Modification::kShifted ? Definiteness::kExact : Definiteness::kClamped;
   phi_.gradient(y, g_, report);
   test_.start(y, g_);
   for (int iteration = 0;; ++iteration) {
@@ -92,13 +94,14 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
       return fail("Newton's method did not converge in " + std::to_string(iteration) + " iterations on '" +
                   test_.slowest() + "'");
     ++report.newton_iterations;
-    if (!step(y, report, failure)) return fail(failure);
+    if (modification_ == Modification::kAuto && iteration == next_exact_) definiteness_ = Definiteness::kExact;
+    if (!step(iteration, y, report, failure)) return fail(failure);
     phi_.gradient(y, g_, report);
   }
 }
 
 /// One iteration from y, where the gradient is g_. Returns false, with the reason, if no way down was found.
-bool Newton::step(Eigen::VectorXd& y, StepReport& report, std::string& failure) {
+bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::string& failure) {
   phi_.soften();
   const auto model_at = [&] {
     phi_.hessian(y, definiteness_, H_, report);
@@ -108,6 +111,12 @@ bool Newton::step(Eigen::VectorXd& y, StepReport& report, std::string& failure) 
   model_at();
   model_gradient_ = g_;
   bool found = direction(y, report, failure);
+  if (!found && modification_ == Modification::kAuto && definiteness_ == Definiteness::kExact) {
+    definiteness_ = Definiteness::kClamped;
+    next_exact_ = iteration + 1 + kClampedAgain;
+    model_at();
+    found = direction(y, report, failure);
+  }
   bool hardened = false;
   for (int proposal = 1; found && proposal < kMostProposals && phi_.harden(y, d_); ++proposal) {
     hardened = true;
@@ -180,7 +189,8 @@ bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string
     report.solver = linear.chosen;
     if (linear.ok) return true;
     failure = "the linear solver failed: " + linear.reason;
-    if (!linear.indefinite || !shift_more()) return false;
+    const bool tried = modification_ == Modification::kAuto && definiteness_ == Definiteness::kExact;
+    if (!linear.indefinite || tried || !shift_more()) return false;
   }
 }
 

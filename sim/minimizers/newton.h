@@ -14,8 +14,9 @@ namespace softreel::sim {
 
 /// Each iteration solves H d = -g and searches along d.
 ///
-/// `hessian = "auto"`: shifted for an equilibrium, where elements under load make the clamped one lose its quadratic
-/// convergence, clamped for motion. "clamped": every element's Hessian is made positive semi-definite by itself, which
+/// `hessian = "auto"`: clamped at first, which is robust far from the minimum; after some iterations exact where that
+/// is positive definite, because under load clamping costs the quadratic convergence ("projection on demand", Longva et
+/// al. 2023). "clamped": every element's Hessian is made positive semi-definite by itself, which
 /// costs nothing beside the element and seldom loses much. "shifted": the exact Hessian plus c I (Nocedal and Wright
 /// 2006, section 3.4), c growing tenfold until the factorization succeeds and the search goes down, and falling again
 /// when it does. The clamped one is shifted too where it is singular (a free body at rest, a slack sheet in
@@ -35,7 +36,7 @@ class Newton final : public Minimizer {
 
  private:
   void prepare();
-  bool step(Eigen::VectorXd& y, StepReport& report, std::string& failure);
+  bool step(int iteration, Eigen::VectorXd& y, StepReport& report, std::string& failure);
   bool shift_more();
   bool direction(const Eigen::VectorXd& y, StepReport& report, std::string& failure);
   std::vector<double> linear_targets() const;
@@ -45,6 +46,7 @@ class Newton final : public Minimizer {
   MinimizerSettings settings_;
   enum class Modification { kAuto, kClamped, kShifted } modification_;
   Definiteness definiteness_ = Definiteness::kClamped;
+  int next_exact_ = 0;  // iteration at which kAuto tries the exact Hessian
   std::unique_ptr<LinearSolver> linear_;
   ConvergenceTest test_;
   LineSearch search_;

@@ -42,7 +42,7 @@ TEST_CASE("free fall and drag have each integrator's own closed form") {
     if (name == "heun" || name == "midpoint") factor = std::pow(1 - z + z * z / 2, steps);
     if (name == "newmark" || name == "implicit-midpoint") factor = std::pow((1 - z / 2) / (1 + z / 2), steps);
     // rk4, bdf2, verlet and leapfrog against the exponential: their errors are below t rate z^p.
-    const double tolerance = name == "rk4" ? std::pow(z, 4)
+    const double tolerance = name == "rk4"                                              ? std::pow(z, 4)
                              : name == "bdf2" || name == "verlet" || name == "leapfrog" ? z * z
                                                                                         : 1e-10;
     CHECK((v_drag - factor * v0).norm() < tolerance * v0.norm());
@@ -52,7 +52,8 @@ TEST_CASE("free fall and drag have each integrator's own closed form") {
 TEST_CASE("the damped oscillator decays and swings as it should") {
   const double k = 20, m = 0.5, c = 0.8;
   const double omega = std::sqrt(k / m), xi = c / (2 * std::sqrt(k * m)), damped = omega * std::sqrt(1 - xi * xi);
-  for (const char* integrator : {"newmark", "implicit-midpoint", "bdf2", "heun", "midpoint", "rk4", "verlet", "leapfrog"}) {
+  for (const char* integrator :
+       {"newmark", "implicit-midpoint", "bdf2", "heun", "midpoint", "rk4", "verlet", "leapfrog"}) {
     TriangleMesh pair;
     pair.vertices = {Vec3(0, 0, 0), Vec3(1.1, 0, 0)};
     ModelBuilder builder;
@@ -80,12 +81,13 @@ TEST_CASE("a hanging chain takes the shape of the elastic catenary, with order 2
   const double span = 1, length = 1.5, weight = 2, EA = 200;  // [m], [m], [N/m], [N]
   // Irvine 1981, section 1.3: from the lowest point, x = H s/EA + H/w asinh(w s/H), y = w s^2/2EA + H/w (sqrt(1 +
   // (ws/H)^2) - 1); H from the span.
-  const auto half_span = [&](double H) { return H * length / 2 / EA + H / weight * std::asinh(weight * length / 2 / H); };
+  const auto half_span = [&](double H) {
+    return H * length / 2 / EA + H / weight * std::asinh(weight * length / 2 / H);
+  };
   double lo = 1e-3, hi = 1e3;
   for (int i = 0; i < 200; ++i) (half_span(0.5 * (lo + hi)) < span / 2 ? lo : hi) = 0.5 * (lo + hi);
   const double H = lo, s2 = length / 2;
-  const double sag =
-      weight * s2 * s2 / 2 / EA + H / weight * (std::sqrt(1 + std::pow(weight * s2 / H, 2)) - 1);
+  const double sag = weight * s2 * s2 / 2 / EA + H / weight * (std::sqrt(1 + std::pow(weight * s2 / H, 2)) - 1);
   std::vector<double> errors;
   for (const int links : {10, 20, 40}) {
     TriangleMesh chain;

@@ -34,8 +34,8 @@ Model spring_pendulum() {
   return model;
 }
 
-const std::set<std::string> kKeepAngularMomentum = {"symplectic-euler", "symplectic-euler-position", "verlet", "leapfrog",
-                                                    "implicit-midpoint"};
+const std::set<std::string> kKeepAngularMomentum = {"symplectic-euler", "symplectic-euler-position", "verlet",
+                                                    "leapfrog", "implicit-midpoint"};
 
 }  // namespace
 
@@ -165,7 +165,8 @@ TEST_CASE("the result does not depend on direction, numbering or units") {
     const BodyRange second = builder.add_membrane(
         "sheet", sheet, {"stvk", 1e4 / u, 0.3, 1e-3 * u, 1e-4 * u * u, BendingModel::kAuto, 0.3 / (u * u)});
     Pin pin;
-    for (int v : beam_pin.vertices) pin.vertices.push_back(first.first + static_cast<int>(beam_order[static_cast<size_t>(v)]));
+    for (int v : beam_pin.vertices)
+      pin.vertices.push_back(first.first + static_cast<int>(beam_order[static_cast<size_t>(v)]));
     for (int v : sheet_pin.vertices)
       pin.vertices.push_back(second.first + static_cast<int>(sheet_order[static_cast<size_t>(v)]));
     builder.add_pin(std::move(pin));
@@ -185,7 +186,8 @@ TEST_CASE("the result does not depend on direction, numbering or units") {
   };
   for (const char* integrator : {"implicit-euler", "newmark", "bdf2"}) {
     const Eigen::VectorXd plain = run({}, integrator);
-    const Eigen::Matrix3d R = Eigen::AngleAxisd(10 * 3.14159265358979 / 180, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(10 * 3.14159265358979 / 180, Vec3(1, 2, 3).normalized()).toRotationMatrix();
     CAPTURE(integrator);
     CHECK((run({R, false, 1}, integrator) - plain).norm() < 1e-8 * plain.norm());
     CHECK((run({Eigen::Matrix3d::Identity(), true, 1}, integrator) - plain).norm() < 1e-8 * plain.norm());
