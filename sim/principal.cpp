@@ -66,10 +66,17 @@ void first_columns(Eigen::Matrix3d& U, const Eigen::Vector3d& b0, const Eigen::V
   U.col(2) = U.col(0).cross(U.col(1));
 }
 
+template <int D>
+void clamp_modes(PrincipalHessian<D>& h) {
+  clamp_to_semidefinite<D>(h.stretch);
+  h.symmetric = h.symmetric.cwiseMax(0.0);
+  h.antisymmetric = h.antisymmetric.cwiseMax(0.0);
+}
+
 }  // namespace
 
-Principal3 principal_stretches(const Eigen::Matrix3d& F) {
-  Principal3 p;
+Principal<3> principal_stretches(const Deformation<3>& F) {
+  Principal<3> p;
   const double scale = F.cwiseAbs().maxCoeff();
   if (!(scale > kTiny)) return {Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
   Eigen::Matrix3d B = F / scale;
@@ -93,8 +100,8 @@ Principal3 principal_stretches(const Eigen::Matrix3d& F) {
   return p;
 }
 
-Principal2 principal_stretches(const Eigen::Matrix<double, 3, 2>& F) {
-  Principal2 p;
+Principal<2> principal_stretches(const Deformation<2>& F) {
+  Principal<2> p;
   const double scale = F.cwiseAbs().maxCoeff();
   if (!(scale > kTiny)) return {Eigen::Matrix3d::Identity(), Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity()};
   Eigen::Matrix<double, 3, 2> B = F / scale;
@@ -108,17 +115,7 @@ Principal2 principal_stretches(const Eigen::Matrix<double, 3, 2>& F) {
   return p;
 }
 
-void clamp(PrincipalHessian3& h) {
-  clamp_to_semidefinite<3>(h.stretch);
-  h.symmetric = h.symmetric.cwiseMax(0.0);
-  h.antisymmetric = h.antisymmetric.cwiseMax(0.0);
-}
-
-void clamp(PrincipalHessian2& h) {
-  clamp_to_semidefinite<2>(h.stretch);
-  h.symmetric = std::max(h.symmetric, 0.0);
-  h.antisymmetric = std::max(h.antisymmetric, 0.0);
-  h.normal = h.normal.cwiseMax(0.0);
-}
+void clamp(PrincipalHessian<3>& h) { clamp_modes(h); }
+void clamp(PrincipalHessian<2>& h) { clamp_modes(h); }
 
 }  // namespace softreel::sim

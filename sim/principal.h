@@ -1,46 +1,45 @@
 #pragma once
 // Principal stretches of a deformation gradient, and Hessians of isotropic energies written in them.
+// D = 3: a solid, F is 3x3. D = 2: a surface, F is 3x2.
 #include <Eigen/Core>
 
 namespace softreel::sim {
 
-/// F = U diag(sigma) V^T with U, V rotations; |sigma_0| >= |sigma_1| >= |sigma_2|, only sigma_2 may be negative
-/// (reflection). Finite for every finite F, the zero matrix included.
-struct Principal3 {
-  Eigen::Matrix3d U;
-  Eigen::Vector3d sigma;
-  Eigen::Matrix3d V;
-};
-Principal3 principal_stretches(const Eigen::Matrix3d& F);
+template <int D>
+using Deformation = Eigen::Matrix<double, 3, D>;
+template <int D>
+using Stretches = Eigen::Matrix<double, D, 1>;
 
-/// Surface: F (3x2) = U.leftCols(2) diag(sigma) V^T, sigma_0 >= sigma_1 >= 0, U a rotation whose last column is
-/// the surface's normal.
-struct Principal2 {
+/// F = U.leftCols(D) diag(sigma) V^T, finite for every finite F, the zero matrix included.
+/// Solid: U, V rotations; sigma_0 >= sigma_1 >= |sigma_2|, only sigma_2 may be negative (reflection).
+/// Surface: sigma_0 >= sigma_1 >= 0, U a rotation whose last column is the surface's normal.
+template <int D>
+struct Principal {
   Eigen::Matrix3d U;
-  Eigen::Vector2d sigma;
-  Eigen::Matrix2d V;
+  Stretches<D> sigma;
+  Eigen::Matrix<double, D, D> V;
 };
-Principal2 principal_stretches(const Eigen::Matrix<double, 3, 2>& F);
+Principal<3> principal_stretches(const Deformation<3>& F);
+Principal<2> principal_stretches(const Deformation<2>& F);
+
+/// R of the polar decomposition F = R S, orthonormal columns, S symmetric. Solid: det R = 1, so that S of a reflection
+/// has one negative eigenvalue, the smallest. About a sixth of the cost of principal_stretches; finite for every F.
+Deformation<3> rotation_of(const Deformation<3>& F);
+Deformation<2> rotation_of(const Deformation<2>& F);
 
 /// d2 psi / dF2 of an isotropic energy in the principal frame (Smith, de Goes, Kim 2019, "Analytic eigensystems for
-/// isotropic distortion energies"): three stretching modes coupled by a 3x3 matrix, and for each pair (i, j) of axes,
+/// isotropic distortion energies"): D stretching modes coupled by a matrix, and for each pair (i, j) of axes of space,
 /// named by the third axis k, the eigenvalues of the symmetric (e_i e_j^T + e_j e_i^T) and the antisymmetric mode.
-struct PrincipalHessian3 {
-  Eigen::Matrix3d stretch;        ///< d2 psi / d sigma_i d sigma_j [Pa]
-  Eigen::Vector3d symmetric;      ///< (psi_i - psi_j) / (sigma_i - sigma_j) [Pa]
-  Eigen::Vector3d antisymmetric;  ///< (psi_i + psi_j) / (sigma_i + sigma_j) [Pa]
-};
-
-/// The same for a surface (F is 3x2): besides, the two modes n e_i^T out of the surface.
-struct PrincipalHessian2 {
-  Eigen::Matrix2d stretch;
-  double symmetric = 0;
-  double antisymmetric = 0;
-  Eigen::Vector2d normal;  ///< psi_i / sigma_i [Pa]
+/// A surface has sigma_2 = psi_2 = 0: both eigenvalues of its pairs with the normal are psi_i / sigma_i.
+template <int D>
+struct PrincipalHessian {
+  Eigen::Matrix<double, D, D> stretch;  ///< d2 psi / d sigma_i d sigma_j [Pa]
+  Eigen::Vector3d symmetric;            ///< (psi_i - psi_j) / (sigma_i - sigma_j) [Pa]
+  Eigen::Vector3d antisymmetric;        ///< (psi_i + psi_j) / (sigma_i + sigma_j) [Pa]
 };
 
 /// Sets negative eigenvalues to zero; exact where there are none.
-void clamp(PrincipalHessian3& hessian);
-void clamp(PrincipalHessian2& hessian);
+void clamp(PrincipalHessian<3>& hessian);
+void clamp(PrincipalHessian<2>& hessian);
 
 }  // namespace softreel::sim

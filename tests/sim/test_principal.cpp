@@ -19,7 +19,7 @@ Eigen::Matrix3d random_matrix(std::mt19937& random) {
 }
 
 void check_factors(const Eigen::Matrix3d& F) {
-  const Principal3 p = principal_stretches(F);
+  const Principal<3> p = principal_stretches(F);
   const double scale = std::max(F.norm(), std::numeric_limits<double>::min());
   CHECK((p.U * p.sigma.asDiagonal() * p.V.transpose() - F).norm() < 1e-14 * scale);
   CHECK((p.U.transpose() * p.U - Eigen::Matrix3d::Identity()).norm() < 1e-13);
@@ -56,7 +56,7 @@ TEST_CASE("principal stretches rebuild F with rotations, for random, flat, inver
 TEST_CASE("principal stretches of a surface rebuild F with an orthonormal frame, for collapsed triangles too") {
   std::mt19937 random(2);
   const auto check = [](const Eigen::Matrix<double, 3, 2>& F) {
-    const Principal2 p = principal_stretches(F);
+    const Principal<2> p = principal_stretches(F);
     CHECK((p.U.leftCols<2>() * p.sigma.asDiagonal() * p.V.transpose() - F).norm() <= 1e-14 * F.norm());
     CHECK((p.U.transpose() * p.U - Eigen::Matrix3d::Identity()).norm() < 1e-13);
     CHECK(p.U.determinant() == doctest::Approx(1));
