@@ -35,7 +35,8 @@ struct SimplexKernel {
     const Rest& r = rest[static_cast<size_t>(e)];
     const Deformation<D> P = material.pk1(deformation(X, r));
     out.template rightCols<D>().noalias() = r.volume * P * r.gradient.transpose();
-    out.col(0) = -out.template rightCols<D>().rowwise().sum();
+    out.col(0) = -out.col(1);
+    for (int a = 2; a <= D; ++a) out.col(0) -= out.col(a);
   }
 
   // K_ab = w sum_jl (grad N_a)_j (grad N_b)_l d2psi/dF_:j dF_:l. In the principal frame d2psi/dF2 is nearly diagonal,
@@ -45,7 +46,8 @@ struct SimplexKernel {
     if constexpr (kConstantHessian) {
       PrincipalHessian<D> h = material.hessian();
       if (definiteness == Definiteness::kClamped) clamp(h);
-      set_blocks(h, r.gradient.transpose(), [&](const Eigen::Matrix3d& N) { return r.volume * N; }, out);
+      set_blocks(
+          h, r.gradient.transpose(), [&](const Eigen::Matrix3d& N) { return r.volume * N; }, out);
     } else {
       const Principal<D> p = principal_stretches(deformation(X, r));
       PrincipalHessian<D> h = material.hessian(p.sigma);
@@ -57,8 +59,9 @@ struct SimplexKernel {
 
  private:
   static Deformation<D> deformation(const Corners<D + 1>& X, const Rest& r) {
-    // From corner 0, so that large coordinates do not cost digits.
-    return (X.template rightCols<D>().colwise() - X.col(0)) * r.gradient;
+    Deformation<D> Ds;  // from corner 0, so that large coordinates do not cost digits
+    for (int a = 0; a < D; ++a) Ds.col(a) = X.col(a + 1) - X.col(0);
+    return Ds * r.gradient;
   }
 
   /// `b`: gradients of the corners 1..D in the principal frame, in columns; `turned`: from that frame into the world.

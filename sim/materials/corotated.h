@@ -13,19 +13,15 @@ namespace softreel::sim {
 template <int D>
 class Corotated {
  public:
-  static constexpr MaterialTraits kTraits{.uses_poisson = false, .smooth_when_collapsed = false};
+  static constexpr MaterialTraits kTraits{.volume_term = false, .smooth_when_collapsed = false};
 
   explicit Corotated(const Lame& lame) : mu_(lame.mu) {}
 
   /// Energy density [J/m^3].
-  double psi(const Deformation<D>& F) const {
-    return mu_ * (F - rotation_of(F)).squaredNorm();
-  }
+  double psi(const Deformation<D>& F) const { return mu_ * (F - rotation_of(F)).squaredNorm(); }
 
   /// First Piola-Kirchhoff stress [Pa].
-  Deformation<D> pk1(const Deformation<D>& F) const {
-    return 2 * mu_ * (F - rotation_of(F));
-  }
+  Deformation<D> pk1(const Deformation<D>& F) const { return 2 * mu_ * (F - rotation_of(F)); }
 
   PrincipalHessian<D> hessian(const Stretches<D>& sigma) const {
     return InvariantHessian<D>(sigma).norm(mu_, 0).trace(-2 * mu_, 0).sum();

@@ -4,9 +4,9 @@
 namespace softreel::sim {
 
 struct MaterialTraits {
-  bool rotation_invariant = true;    ///< turning the body costs nothing
-  bool uses_poisson = true;          ///< false: behaves as Poisson's ratio 0, whatever is given
-  bool smooth_when_collapsed = true; ///< twice differentiable where an element has collapsed to a line or a point
+  bool rotation_invariant = true;     ///< turning the body costs nothing
+  bool volume_term = true;            ///< false: Poisson's ratio 0 and Young's modulus 2 mu, whatever is given
+  bool smooth_when_collapsed = true;  ///< twice differentiable where an element has collapsed to a line or a point
 };
 
 }  // namespace softreel::sim
