@@ -31,7 +31,7 @@ class VertexSlots {
 ///   static constexpr int kCorners, constexpr bool kConstantHessian;
 ///   double energy(int e, const Corners<K>&) const;
 ///   void gradient(int e, const Corners<K>&, Corners<K>& out) const;
-///   void hessian(int e, const Corners<K>&, Definiteness, ElementHessian<K>& out) const;
+///   void hessian(int e, const Corners<K>&, Definiteness, ElementHessian<K>& out) const;  // at least its upper blocks
 template <class Kernel>
 class ElementTerm final : public EnergyTerm {
  public:

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "sim/element_term.h"
+#include "sim/polar.h"
+#include "sim/symmetric_eigen.h"
 
 namespace softreel::sim {
 namespace {
@@ -77,6 +79,13 @@ void clamp_modes(PrincipalHessian<D>& h) {
 
 Principal<3> principal_stretches(const Deformation<3>& F) {
   Principal<3> p;
+  Eigen::Matrix3d R;
+  if (closed_form_rotation(F, R)) {  // the usual case: F = R S, S = V Sigma V^T
+    const Eigen::Matrix3d S = R.transpose() * F;
+    symmetric_eigen(0.5 * (S + S.transpose()), p.sigma, p.V);
+    p.U = R * p.V;
+    return p;
+  }
   const double scale = F.cwiseAbs().maxCoeff();
   if (!(scale > kTiny)) return {Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
   Eigen::Matrix3d B = F / scale;

@@ -22,11 +22,6 @@ struct Principal {
 Principal<3> principal_stretches(const Deformation<3>& F);
 Principal<2> principal_stretches(const Deformation<2>& F);
 
-/// R of the polar decomposition F = R S, orthonormal columns, S symmetric. Solid: det R = 1, so that S of a reflection
-/// has one negative eigenvalue, the smallest. About a sixth of the cost of principal_stretches; finite for every F.
-Deformation<3> rotation_of(const Deformation<3>& F);
-Deformation<2> rotation_of(const Deformation<2>& F);
-
 /// d2 psi / dF2 of an isotropic energy in the principal frame (Smith, de Goes, Kim 2019, "Analytic eigensystems for
 /// isotropic distortion energies"): D stretching modes coupled by a matrix, and for each pair (i, j) of axes of space,
 /// named by the third axis k, the eigenvalues of the symmetric (e_i e_j^T + e_j e_i^T) and the antisymmetric mode.

@@ -64,40 +64,40 @@ struct SimplexKernel {
     return Ds * r.gradient;
   }
 
-  /// `b`: gradients of the corners 1..D in the principal frame, in columns; `turned`: from that frame into the world.
+  /// Upper blocks of `out`. `b`: gradients of the corners 1..D in the principal frame, in columns; `turned`: from that
+  /// frame into the world. A surface has no gradient along its normal, the third axis.
   static void set_blocks(const PrincipalHessian<D>& h, const Eigen::Matrix<double, D, D>& b, const auto& turned,
                          ElementHessian<D + 1>& out) {
-    Eigen::Matrix3d same, swapped;  // coefficients of (rj, rj) and of (rj, jr)
+    Eigen::Matrix3d same, swapped, stretch = Eigen::Matrix3d::Zero();  // of (rj, rj), (rj, jr) and (rr, jj), r != j
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       same(i, j) = same(j, i) = 0.5 * (h.symmetric(k) + h.antisymmetric(k));
       swapped(i, j) = swapped(j, i) = 0.5 * (h.symmetric(k) - h.antisymmetric(k));
-      if (k < D) same(k, k) = h.stretch(k, k);
+      same(k, k) = k < D ? h.stretch(k, k) : 0;
+      swapped(k, k) = 0;
+      if (i < D && j < D) stretch(i, j) = stretch(j, i) = h.stretch(i, j);
     }
+    Eigen::Matrix<double, 3, D> B = Eigen::Matrix<double, 3, D>::Zero();
+    B.template topRows<D>() = b;
+    // A translation costs nothing: the rows of corner 0 are minus the sum of the others.
+    Eigen::Matrix3d sums[D], corner = Eigen::Matrix3d::Zero();
+    for (int c = 0; c < D; ++c) sums[c].setZero();
     for (int a = 0; a < D; ++a) {
       for (int c = a; c < D; ++c) {
-        Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
-        for (int row = 0; row < 3; ++row) {
-          N(row, row) = same(row, 0) * b(0, a) * b(0, c);
-          for (int j = 1; j < D; ++j) N(row, row) += same(row, j) * b(j, a) * b(j, c);
-          for (int col = 0; col < D; ++col)
-            if (col != row && row < D)
-              N(row, col) = h.stretch(row, col) * b(row, a) * b(col, c) + swapped(row, col) * b(col, a) * b(row, c);
-        }
+        const Eigen::Matrix3d outer = B.col(a) * B.col(c).transpose();
+        Eigen::Matrix3d N = stretch.cwiseProduct(outer) + swapped.cwiseProduct(outer.transpose());
+        N.diagonal() = same * outer.diagonal();
         const Eigen::Matrix3d K = turned(N);
         out.template block<3, 3>(3 * (a + 1), 3 * (c + 1)) = K;
-        if (a != c) out.template block<3, 3>(3 * (c + 1), 3 * (a + 1)) = K.transpose();
+        sums[c] += K;
+        if (a != c) sums[a] += K.transpose();
       }
     }
-    // A translation costs nothing: the rows of corner 0 are minus the sum of the others.
-    out.template block<3, 3>(0, 0).setZero();
-    for (int a = 1; a <= D; ++a) {
-      Eigen::Matrix3d sum = out.template block<3, 3>(3, 3 * a);
-      for (int c = 2; c <= D; ++c) sum += out.template block<3, 3>(3 * c, 3 * a);
-      out.template block<3, 3>(0, 3 * a) = -sum;
-      out.template block<3, 3>(3 * a, 0) = -sum.transpose();
-      out.template block<3, 3>(0, 0) += sum;
+    for (int c = 0; c < D; ++c) {
+      out.template block<3, 3>(0, 3 * (c + 1)) = -sums[c];
+      corner += sums[c];
     }
+    out.template block<3, 3>(0, 0) = corner;
   }
 };
 

@@ -5,6 +5,7 @@
 #include "sim/materials/invariants.h"
 #include "sim/materials/lame.h"
 #include "sim/materials/traits.h"
+#include "sim/polar.h"
 #include "sim/principal.h"
 
 namespace softreel::sim {

@@ -148,9 +148,8 @@ TEST_CASE("every material has the energy of its formula in principal stretches")
       Eigen::Vector3d s = Eigen::Vector3d::Ones() + 0.9 * random_vector(3, 1, seed);
       std::sort(s.begin(), s.end(), std::greater<>());
       if (e.dimensions == 3 && seed % 2 == 0) s(2) = -0.9 * s(2);
-      const Eigen::Matrix3d V = e.dimensions == 3
-                                    ? turn(200 + seed)
-                                    : Eigen::AngleAxisd(seed, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      const Eigen::Matrix3d V =
+          e.dimensions == 3 ? turn(200 + seed) : Eigen::AngleAxisd(seed, Eigen::Vector3d::UnitZ()).toRotationMatrix();
       const Eigen::Matrix3d U = e.traits.rotation_invariant ? turn(300 + seed) : V;
       const std::vector<Complex> stretches(s.begin(), s.begin() + e.dimensions);
       const double expected = stretch_energy(e.material, stretches, e.lame()).real() - at_rest;
@@ -162,8 +161,9 @@ TEST_CASE("every material has the energy of its formula in principal stretches")
 TEST_CASE("flat, inverted, collapsed, huge and tiny elements stay finite in every material") {
   for_every_material([](const Element& e) {
     const Eigen::Matrix3d R = turn(7), Q = turn(8);
-    const Eigen::Vector3d stretches[] = {{1, 1, 1},  {1.2, 0.8, 0},    {1.2, 0, 0},      {0, 0, 0},         {1, 1, -1},
-                                         {1, -1, 1}, {-1.2, -1, -0.8}, {1, 1e-9, 1e-12}, {1, 1e-9, -1e-9}, {1, 1, 1e-16}};
+    const Eigen::Vector3d stretches[] = {{1, 1, 1},        {1.2, 0.8, 0}, {1.2, 0, 0},      {0, 0, 0},
+                                         {1, 1, -1},       {1, -1, 1},    {-1.2, -1, -0.8}, {1, 1e-9, 1e-12},
+                                         {1, 1e-9, -1e-9}, {1, 1, 1e-16}};
     for (double size : {1.0, 1e6, 1e-9, 1e-200})
       for (const Eigen::Vector3d& s : stretches)
         for (const Eigen::Matrix3d& U : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), R}) {
@@ -175,8 +175,7 @@ TEST_CASE("flat, inverted, collapsed, huge and tiny elements stay finite in ever
           CHECK(e.hessian(F, Definiteness::kExact).allFinite());
           const Eigen::MatrixXd C = e.hessian(F, Definiteness::kClamped);
           REQUIRE(C.allFinite());
-          CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(C).eigenvalues().minCoeff() >=
-                -1e-10 * C.stableNorm());
+          CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(C).eigenvalues().minCoeff() >= -1e-10 * C.stableNorm());
         }
   });
 }
