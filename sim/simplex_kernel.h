@@ -47,12 +47,14 @@ struct SimplexKernel {
       PrincipalHessian<D> h = material.hessian();
       if (definiteness == Definiteness::kClamped) clamp(h);
       set_blocks(
-          h, r.gradient.transpose(), [&](const Eigen::Matrix3d& N) { return r.volume * N; }, out);
+          h, r.gradient.transpose(), [&](const Eigen::Matrix3d& N) -> Eigen::Matrix3d { return r.volume * N; }, out);
     } else {
       const Principal<D> p = principal_stretches(deformation(X, r));
       PrincipalHessian<D> h = material.hessian(p.sigma);
       if (definiteness == Definiteness::kClamped) clamp(h);
-      const auto turned = [&](const Eigen::Matrix3d& N) { return r.volume * p.U * N * p.U.transpose(); };
+      const auto turned = [&](const Eigen::Matrix3d& N) -> Eigen::Matrix3d {
+        return r.volume * p.U * N * p.U.transpose();
+      };
       set_blocks(h, p.V.transpose() * r.gradient.transpose(), turned, out);
     }
   }
@@ -68,36 +70,45 @@ struct SimplexKernel {
   /// frame into the world. A surface has no gradient along its normal, the third axis.
   static void set_blocks(const PrincipalHessian<D>& h, const Eigen::Matrix<double, D, D>& b, const auto& turned,
                          ElementHessian<D + 1>& out) {
-    Eigen::Matrix3d same, swapped, stretch = Eigen::Matrix3d::Zero();  // of (rj, rj), (rj, jr) and (rr, jj), r != j
+    Eigen::Matrix3d same, swapped;  // coefficients of (rj, rj) and of (rj, jr)
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       same(i, j) = same(j, i) = 0.5 * (h.symmetric(k) + h.antisymmetric(k));
       swapped(i, j) = swapped(j, i) = 0.5 * (h.symmetric(k) - h.antisymmetric(k));
-      same(k, k) = k < D ? h.stretch(k, k) : 0;
-      swapped(k, k) = 0;
-      if (i < D && j < D) stretch(i, j) = stretch(j, i) = h.stretch(i, j);
+      if (k < D) same(k, k) = h.stretch(k, k);
     }
-    Eigen::Matrix<double, 3, D> B = Eigen::Matrix<double, 3, D>::Zero();
-    B.template topRows<D>() = b;
-    // A translation costs nothing: the rows of corner 0 are minus the sum of the others.
-    Eigen::Matrix3d sums[D], corner = Eigen::Matrix3d::Zero();
-    for (int c = 0; c < D; ++c) sums[c].setZero();
     for (int a = 0; a < D; ++a) {
       for (int c = a; c < D; ++c) {
-        const Eigen::Matrix3d outer = B.col(a) * B.col(c).transpose();
-        Eigen::Matrix3d N = stretch.cwiseProduct(outer) + swapped.cwiseProduct(outer.transpose());
-        N.diagonal() = same * outer.diagonal();
-        const Eigen::Matrix3d K = turned(N);
-        out.template block<3, 3>(3 * (a + 1), 3 * (c + 1)) = K;
-        sums[c] += K;
-        if (a != c) sums[a] += K.transpose();
+        Eigen::Matrix3d N;
+        for (int row = 0; row < 3; ++row) {
+          if constexpr (D == 3)
+            N(row, row) =
+                same(row, 0) * b(0, a) * b(0, c) + same(row, 1) * b(1, a) * b(1, c) + same(row, 2) * b(2, a) * b(2, c);
+          else
+            N(row, row) = same(row, 0) * b(0, a) * b(0, c) + same(row, 1) * b(1, a) * b(1, c);
+          for (int col = 0; col < 3; ++col) {
+            if (col == row) continue;
+            if (row < D && col < D)
+              N(row, col) = h.stretch(row, col) * b(row, a) * b(col, c) + swapped(row, col) * b(col, a) * b(row, c);
+            else
+              N(row, col) = 0;
+          }
+        }
+        out.template block<3, 3>(3 * (a + 1), 3 * (c + 1)) = turned(N);
       }
     }
-    for (int c = 0; c < D; ++c) {
-      out.template block<3, 3>(0, 3 * (c + 1)) = -sums[c];
-      corner += sums[c];
+    // A translation costs nothing: the rows of corner 0 are minus the sum of the others.
+    const auto K = [&](int a, int c) { return out.template block<3, 3>(3 * a, 3 * c); };
+    if constexpr (D == 3) {
+      K(0, 1) = -(K(1, 1) + K(1, 2).transpose() + K(1, 3).transpose());
+      K(0, 2) = -(K(1, 2) + K(2, 2) + K(2, 3).transpose());
+      K(0, 3) = -(K(1, 3) + K(2, 3) + K(3, 3));
+      K(0, 0) = -(K(0, 1) + K(0, 2) + K(0, 3));
+    } else {
+      K(0, 1) = -(K(1, 1) + K(1, 2).transpose());
+      K(0, 2) = -(K(1, 2) + K(2, 2));
+      K(0, 0) = -(K(0, 1) + K(0, 2));
     }
-    out.template block<3, 3>(0, 0) = corner;
   }
 };
 

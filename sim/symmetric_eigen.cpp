@@ -41,13 +41,15 @@ void symmetric_eigen(const Eigen::Matrix3d& S, Eigen::Vector3d& values, Eigen::M
   // Of rank 2: the cross product of two rows is the eigenvector; the longest is the most exact.
   Eigen::Vector3d w = M.col(0).cross(M.col(1));
   double longest = w.squaredNorm();
-  for (const Eigen::Vector3d& other : {Eigen::Vector3d(M.col(1).cross(M.col(2))), Eigen::Vector3d(M.col(2).cross(M.col(0)))})
+  for (const Eigen::Vector3d& other :
+       {Eigen::Vector3d(M.col(1).cross(M.col(2))), Eigen::Vector3d(M.col(2).cross(M.col(0)))})
     if (other.squaredNorm() > longest) {
       longest = other.squaredNorm();
       w = other;
     }
   w /= std::sqrt(longest);
-  Eigen::Vector3d u = std::abs(w.x()) > std::abs(w.y()) ? Eigen::Vector3d(-w.z(), 0, w.x()) : Eigen::Vector3d(0, w.z(), -w.y());
+  Eigen::Vector3d u =
+      std::abs(w.x()) > std::abs(w.y()) ? Eigen::Vector3d(-w.z(), 0, w.x()) : Eigen::Vector3d(0, w.z(), -w.y());
   u /= u.norm();
   const Eigen::Vector3d v = w.cross(u);
   // The complement, diagonalized by one rotation (Golub and Van Loan, section 8.5.2).
@@ -64,7 +66,8 @@ void symmetric_eigen(const Eigen::Matrix3d& S, Eigen::Vector3d& values, Eigen::M
   const double at_e = a - t * c, at_f = b + t * c;
   // w, e, f are right-handed; so is each of these orders.
   const double mean = S.trace() / 3, at_w = w.dot(B * w);
-  const auto order = [&](const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::Vector3d& v2, double l0, double l1, double l2) {
+  const auto order = [&](const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::Vector3d& v2, double l0,
+                         double l1, double l2) {
     V << v0, v1, v2;
     values = Eigen::Vector3d(l0, l1, l2) * scale + Eigen::Vector3d::Constant(mean);
   };
