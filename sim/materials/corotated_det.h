@@ -20,7 +20,7 @@ class CorotatedDet {
 
   /// Energy density [J/m^3].
   double psi(const Deformation<D>& F) const {
-    const double dilation = VolumeRatio<D>(F).J - 1;
+    const double dilation = volume_ratio(F) - 1;
     return mu_ * (F - rotation_of(F)).squaredNorm() + 0.5 * lambda_ * dilation * dilation;
   }
 

@@ -11,6 +11,9 @@
 
 namespace softreel::sim {
 
+inline double volume_ratio(const Deformation<3>& F) { return F.col(0).dot(F.col(1).cross(F.col(2))); }
+inline double volume_ratio(const Deformation<2>& F) { return F.col(0).cross(F.col(1)).norm(); }
+
 /// J and dJ/dF.
 template <int D>
 struct VolumeRatio;
@@ -34,7 +37,8 @@ struct VolumeRatio<2> {
     J = area.norm();
     if (J > 0) {
       const Eigen::Vector3d n = area / J;
-      gradient << F.col(1).cross(n), n.cross(F.col(0));
+      gradient.col(0) = F.col(1).cross(n);
+      gradient.col(1) = n.cross(F.col(0));
     } else {
       gradient.setZero();  // a triangle without area has no direction in which it would gain some
     }

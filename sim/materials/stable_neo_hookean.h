@@ -26,7 +26,7 @@ class StableNeoHookean {
 
   /// Energy density [J/m^3]; its constant makes psi(I) = 0.
   double psi(const Deformation<D>& F) const {
-    const double I2 = F.squaredNorm(), J = VolumeRatio<D>(F).J;
+    const double I2 = F.squaredNorm(), J = volume_ratio(F);
     // Differences from the rest state, so that the energy of a small strain is not lost in rounding.
     return 0.5 * mu_ * (I2 - D) + 0.5 * lambda_ * (J - 1) * (J + 1 - 2 * a_) -
            0.5 * mu_ * std::log1p((I2 - D) / (D + 1));
