@@ -48,6 +48,7 @@ Shapes simulate_plan(ClipPlan& plan, int last, bool quiet) {
   RunFigures& f = plan.figures;
   f.tetrahedralize = shapes.tetrahedralize_seconds;
   f.load = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() - f.tetrahedralize;
+  for (const std::string& note : plan.scene.notes) say(quiet, "note: " + note);
   for (const std::string& note : shapes.notes) say(quiet, "note: " + note);
   for (const SolidShape& s : shapes.soft) {
     f.tets += static_cast<long>(s.rest.tets.size());

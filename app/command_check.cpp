@@ -22,6 +22,8 @@ int run_check(const CheckArguments& a) {
   assets::check_assets(scene);
   fmt::print("{}: no mistakes. {} frames at {:g} fps, {} steps of {:.4g} s\n\n", a.scene, scene.time.frames(),
              scene.time.fps, (scene.time.frames() - 1) * scene.time.substeps, scene.time.step());
+  for (const std::string& note : scene.notes)
+    fmt::print("note: {}\n{}", note, &note == &scene.notes.back() ? "\n" : "");
   const std::vector<BillItem> bill = bill_of(scene);
   for (const bool needed : {true, false}) {
     fmt::print("{}\n", needed ? "needed" : "left out");

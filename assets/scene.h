@@ -267,8 +267,9 @@ struct Scene {
   std::vector<Light> lights;  ///< a file that does not mention lights gets one area light; `light = []` means none
   Render render;
 
-  std::filesystem::path file;    ///< where it was read from
-  std::vector<AssetUse> assets;  ///< in the order of the table; filled by the reader
+  std::filesystem::path file;      ///< where it was read from
+  std::vector<std::string> notes;  ///< what is no mistake but should be known, with file, line and column
+  std::vector<AssetUse> assets;    ///< in the order of the table; filled by the reader
 
   /// A path of the scene file (mesh, texture), seen from the working directory.
   std::filesystem::path asset_path(const std::string& written) const;

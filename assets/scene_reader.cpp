@@ -85,6 +85,13 @@ class Reader : public KeyVisitor {
     report(node->where, label.empty() ? message : label + ": " + message);
   }
 
+  void note(std::string_view path, std::string message) override {
+    const Where& where = resolve(path).first->where;
+    const std::string place =
+        where.line > 0 ? fmt::format("{}:{}:{}", where.file, where.line, where.column) : where.file;
+    scene_.notes.push_back(fmt::format("{}: {}: {}", place, label_of(path), message));
+  }
+
  private:
   struct Level {
     const Node* table;

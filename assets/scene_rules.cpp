@@ -7,6 +7,7 @@
 #include <map>
 
 #include "assets/scene_limits.h"
+#include "sim/catalogue.h"
 
 namespace softreel::assets {
 
@@ -30,6 +31,15 @@ void check_mesh_or(KeyVisitor& v, const Body& body, bool made, const char* key, 
   else if (!wants_mesh && !wants_made)
     v.problem("", fmt::format("has no shape; add mesh = \"FILE\" or {}", example));
   if (body.mesh.path.empty() && made) only_for(v, false, {"unit", "up", "size"}, "is for a mesh file");
+}
+
+// A material without a volume term takes Poisson's ratio for its shear modulus only.
+void note_poisson(KeyVisitor& v, const sim::MaterialTraits& traits, const std::string& model, double young,
+                  double poisson) {
+  if (traits.volume_term || poisson == 0) return;
+  v.note(v.given("material.poisson") ? "material.poisson" : "material",
+         fmt::format("model = \"{}\" has no volume term: with poisson = {:g} it behaves as poisson = 0, young = {:.4g}",
+                     model, poisson, young / (1 + poisson)));
 }
 
 // Names of bodies and colliders are one set: overrides, reports and exports call them by name.
@@ -150,6 +160,8 @@ void check(KeyVisitor& v, const Pin& pin) {
 void check(KeyVisitor& v, const SoftBody& body) {
   check_mesh_or(v, body, body.block.has_value(), "block", "block = { size = [1, 1, 1], cells = [8, 8, 8] }");
   only_for(v, !body.block, {"tetrahedralize"}, "is for a mesh; a block is made of tetrahedra already");
+  const SolidMaterial& m = body.material;
+  note_poisson(v, sim::solid_traits(m.model), m.model, m.young, m.poisson);
 }
 
 void check(KeyVisitor& v, const Cloth& cloth) {
@@ -159,6 +171,8 @@ void check(KeyVisitor& v, const Cloth& cloth) {
   only_for(v, !springs, {"bending_model", "material.model"}, "is for model = \"membrane\"");
   only_for(v, cloth.springs.structural.has_value(), {"springs.shear"},
            "goes with springs.structural, which is missing");
+  const ClothMaterial& m = cloth.material;
+  if (!springs) note_poisson(v, sim::membrane_traits(m.model), m.model, m.young, m.poisson);
   only_for(v, !springs, {"material.bending"}, "is for model = \"membrane\"; masses and springs have springs.bend");
 }
 

@@ -115,6 +115,7 @@ class KeyVisitor {
   virtual bool reading() const { return false; }
   virtual bool given(std::string_view) const { return false; }
   virtual void problem(std::string_view, std::string) {}
+  virtual void note(std::string_view, std::string) {}  ///< no mistake, but the user should know
 };
 
 /// Shows every key of `scene` in the order of the reference.

@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "sim/materials/traits.h"
+
 namespace softreel::sim {
 
 struct MethodInfo {
@@ -18,6 +20,11 @@ using Catalogue = std::span<const MethodInfo>;
 
 Catalogue solid_materials();
 Catalogue membrane_materials();
+
+/// What a material of these tables can and cannot. Throws std::invalid_argument for an unknown one.
+const MaterialTraits& solid_traits(std::string_view material);
+const MaterialTraits& membrane_traits(std::string_view material);
+
 Catalogue integrators();
 /// True if the integrator solves a system each step; `name` is one of `integrators()`.
 bool is_implicit(std::string_view integrator);

@@ -7,7 +7,6 @@
 
 #include "sim/catalogue.h"
 #include "sim/energy_term.h"
-#include "sim/materials/traits.h"
 #include "sim/mesh.h"
 
 namespace softreel::sim {
@@ -17,9 +16,6 @@ namespace softreel::sim {
 /// material or a triangle without area.
 std::unique_ptr<EnergyTerm> make_membrane(std::string_view material, double young, double poisson, double thickness,
                                           const TriangleMesh& rest, int first_vertex);
-
-/// What a material of `membrane_materials()` can and cannot. Throws std::invalid_argument for an unknown one.
-const MaterialTraits& membrane_traits(std::string_view material);
 
 /// Lumped mass of each vertex [kg]: a third of each adjacent triangle's; areal density [kg/m^2].
 std::vector<double> lumped_masses(const TriangleMesh& rest, double areal_density);

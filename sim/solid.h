@@ -7,7 +7,6 @@
 
 #include "sim/catalogue.h"
 #include "sim/energy_term.h"
-#include "sim/materials/traits.h"
 #include "sim/mesh.h"
 
 namespace softreel::sim {
@@ -17,9 +16,6 @@ namespace softreel::sim {
 /// unknown one or a rest volume <= 0.
 std::unique_ptr<EnergyTerm> make_solid(std::string_view material, double young, double poisson, const TetMesh& rest,
                                        int first_vertex);
-
-/// What a material of `solid_materials()` can and cannot. Throws std::invalid_argument for an unknown one.
-const MaterialTraits& solid_traits(std::string_view material);
 
 /// Lumped mass of each vertex [kg]: a quarter of each adjacent tetrahedron's; density [kg/m^3].
 std::vector<double> lumped_masses(const TetMesh& rest, double density);

@@ -220,4 +220,17 @@ TEST_CASE("meshes and textures that are not there are all named, each with the p
   CHECK(contains(error.problems()[1].message, "there is no folder"));
 }
 
+TEST_CASE("a material without a volume term notes that Poisson's ratio does not act as one") {
+  const Scene given =
+      parse("[[soft]]\nblock = {}\nmaterial = { model = \"corotated\", young = 1.3e4, poisson = 0.3 }\n");
+  REQUIRE(given.notes.size() == 1);
+  CHECK(given.notes[0].find(":3:") != std::string::npos);
+  CHECK(given.notes[0].find("material.poisson: ") != std::string::npos);
+  CHECK(given.notes[0].find("young = 1e+04") != std::string::npos);
+  CHECK(parse("[[soft]]\nblock = {}\nmaterial = { model = \"corotated\", preset = \"jelly\" }\n").notes.size() == 1);
+  CHECK(parse("[[cloth]]\ngrid = {}\nmaterial = { model = \"corotated\" }\n").notes.size() == 1);
+  CHECK(parse("[[soft]]\nblock = {}\nmaterial = { model = \"corotated\", poisson = 0 }\n").notes.empty());
+  CHECK(parse("[[soft]]\nblock = {}\nmaterial = { poisson = 0.3 }\n").notes.empty());
+}
+
 }  // namespace softreel::assets
