@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "sim/mesh.h"
 #include "sim/simplex_kernel.h"
 #include "tests/sim/derivatives.h"
 #include "tests/sim/symmetric_dirichlet.h"
