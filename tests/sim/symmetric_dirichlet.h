@@ -36,9 +36,7 @@ class SymmetricDirichlet {
   }
 
  private:
-  Stretches<3> first(const Stretches<3>& s) const {
-    return mu_ / 2 * (s.array() - s.array().cube().inverse());
-  }
+  Stretches<3> first(const Stretches<3>& s) const { return mu_ / 2 * (s.array() - s.array().cube().inverse()); }
 
   double mu_;
 };
