@@ -12,7 +12,7 @@ namespace {
 
 // Below this the closed forms lose digits (about eps / kWellConditioned^2 is left); Jacobi rotations do not. A rotation
 // has 16/27, a block pressed flat 1/2.
-constexpr double kWellConditioned = 0.2;
+constexpr double kWellConditioned = 0.3;
 constexpr double kFlat = 0.05;  // the same for a surface, J / |F|^2; a rotation has 1/2
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 

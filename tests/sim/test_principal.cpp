@@ -40,6 +40,8 @@ TEST_CASE("principal stretches rebuild F with rotations, for random, flat, inver
     check_factors(1e-150 * F);
     check_factors(1e150 * F);
     const Eigen::Matrix3d Q = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    for (double strain : {0.0, 1e-12, 1e-8, 1e-4, 0.1})  // equal stretches, to rounding or nearly
+      check_factors(Q * (Eigen::Matrix3d::Identity() + strain * F));
     check_factors(Q * Eigen::Vector3d(1.2, 0.7, 0).asDiagonal() * Q.transpose());
     check_factors(Q * Eigen::Vector3d(1.2, 0, 0).asDiagonal());
     check_factors(Q * Eigen::Vector3d(1, 1, -1).asDiagonal());
