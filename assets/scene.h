@@ -175,6 +175,71 @@ struct Cloth : Body {
   double areal_density() const { return density * material.thickness; }  ///< [kg/m^2]
 };
 
+/// Points in a row, joined by edges.
+struct Chain {
+  Vec3 from = Vec3(-0.5, 0, 0);  ///< [m], in the body's coordinates
+  Vec3 to = Vec3(0.5, 0, 0);     ///< [m]
+  int links = 10;                ///< edges; there is one point more
+};
+
+/// Points with masses, and springs between them: oscillators, chains, pendulums. Lists hold one number for all, or one for
+/// each.
+struct SpringBody : Body {
+  std::vector<Vec3> points;               ///< [m]; exactly one of `points` and `chain` is given
+  std::vector<std::array<int, 2>> edges;  ///< numbers of points, from 0
+  std::optional<Chain> chain;
+  std::vector<double> mass = {0.1};       ///< of each point [kg]
+  std::vector<double> stiffness = {1e3};  ///< of each edge [N/m]
+  std::vector<double> rest_length;        ///< of each edge [m]; empty: the distance of its points
+  double damping = 0;                     ///< along each edge [N s/m]
+  std::vector<double> radius;             ///< of the drawn balls [m]; empty: from the lengths of the edges
+  std::optional<double> edge_radius;      ///< of the drawn rods [m]; absent: a third of the smallest ball's
+};
+
+/// A body that another part of the scene speaks of.
+struct BodyName {
+  std::string name;   ///< as written
+  std::string place;  ///< "soft.2": filled by the reader; names may change without changing a simulation
+};
+
+/// Forces on a part of a body that keep their size and direction.
+struct Load {
+  std::string name;  ///< unique among loads; made up ("load-1") when the file gives none
+  BodyName body;
+  std::optional<Box> box;         ///< what lies inside, after the body's transform
+  std::optional<Vec3> force;      ///< in all, shared out by mass [N]; exactly one of `force` and `traction` is given
+  std::optional<Vec3> traction;   ///< on the rest area of surface triangles that are all inside [Pa]
+  double from = 0;                ///< [s]
+  std::optional<double> until;    ///< [s], later than `from`
+  double ramp = 0;                ///< time in which it rises, in a straight line [s]
+};
+
+/// Ties between vertices of a body and the surface of another.
+struct Attach {
+  std::string name;                ///< unique among attachments; made up ("attach-1") when the file gives none
+  std::array<BodyName, 2> bodies;  ///< vertices of the first are bound to the second
+  std::optional<Box> box;          ///< which vertices, after the body's transform; absent: all
+  std::optional<double> near;      ///< only those nearer than this to the second [m]
+  std::optional<double> stiffness; ///< of each tie [N/m]; absent: ten times that of the softer body around it
+  double damping = 0;              ///< of each tie [N s/m]
+  bool snap = false;               ///< draw the points together, whatever their distance
+};
+
+struct Gusts {
+  double amplitude = 0.3;  ///< largest deviation, along and across, relative to the wind's speed [-]
+  double period = 3;       ///< of the slowest [s]
+  int seed = 0;
+};
+
+/// Air that moves: it presses on cloths and soft bodies, and [damping] drag is relative to it.
+struct Wind {
+  Vec3 velocity = Vec3::Zero();  ///< [m/s]; zero: still air, which resists
+  double density = 1.2;          ///< of the air [kg/m^3]
+  double drag = 1.2;             ///< coefficient of the pressure across a surface [-]
+  double friction = 0;           ///< coefficient of the shear along it [-]
+  std::optional<Gusts> gusts;
+};
+
 struct Collider {
   std::string name;  ///< unique among bodies and colliders; made up ("collider-1") when the file gives none
   ColliderShape shape = ColliderShape::kPlane;
@@ -196,7 +261,7 @@ struct Contact {
 };
 
 struct Damping {
-  double drag = 0;   ///< force per mass and velocity [1/s]
+  double drag = 0;   ///< force per mass and velocity, relative to the wind [1/s]
   double alpha = 0;  ///< Rayleigh, of the mass [1/s]
   double beta = 0;   ///< Rayleigh, of the stiffness [s]
 };
@@ -260,7 +325,11 @@ struct Scene {
   Solver solver;
   std::vector<SoftBody> soft;
   std::vector<Cloth> cloth;
+  std::vector<SpringBody> springs;
   std::vector<Collider> colliders;
+  std::vector<Load> loads;
+  std::vector<Attach> attachments;
+  std::optional<Wind> wind;
   Contact contact;
   Damping damping;
   Camera camera;

@@ -16,7 +16,7 @@ class Writer : public KeyVisitor {
   std::string text;
 
   void key(const Key& key, const ValueRef& value) override {
-    if (key.role == role_) text += prefix_ + key.name + " = " + value_text(value) + "\n";
+    if (key.role == role_) text += prefix_ + key.name + " = " + canonical_text(value) + "\n";
   }
 
   void section(const Section& section, const SectionRef& ref) override {
@@ -31,6 +31,14 @@ class Writer : public KeyVisitor {
   }
 
  private:
+  // So do the bodies that are spoken of.
+  static std::string canonical_text(const ValueRef& value) {
+    if (const auto* body = std::get_if<BodyName*>(&value)) return (*body)->place;
+    if (const auto* two = std::get_if<std::array<BodyName, 2>*>(&value))
+      return (**two)[0].place + ", " + (**two)[1].place;
+    return value_text(value);
+  }
+
   void enter(const std::string& part, const KeyWalk& keys) {
     const std::string outer = prefix_;
     prefix_ += part;

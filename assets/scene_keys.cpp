@@ -1,5 +1,5 @@
 // The table: every key of a scene file. To add one, add a line here (and a rule in scene_rules.cpp, if it depends on
-// another key). Bodies and colliders are in scene_keys_bodies.cpp.
+// another key). Bodies and colliders are in scene_keys_bodies.cpp, what acts on them in scene_keys_forces.cpp.
 #include "assets/scene_limits.h"
 #include "assets/scene_rules.h"
 #include "assets/scene_walk.h"
@@ -43,7 +43,7 @@ void walk(KeyVisitor& v, Contact& c) {
 }
 
 void walk(KeyVisitor& v, Damping& d) {
-  v.key({"drag", kPhysics, "1/s", at_least(0, 1e9), "force against the velocity, per mass"}, &d.drag);
+  v.key({"drag", kPhysics, "1/s", at_least(0, 1e9), "force against the velocity relative to the wind, per mass"}, &d.drag);
   v.key({"alpha", kPhysics, "1/s", at_least(0, 1e9), "Rayleigh damping by the mass"}, &d.alpha);
   v.key({"beta", kPhysics, "s", at_least(0, 1e6), "Rayleigh damping by the stiffness"}, &d.beta);
 }
@@ -103,7 +103,11 @@ void walk_scene(KeyVisitor& v, Scene& s) {
   v.section({"solver", "how an implicit step is solved"}, keys_of(s.solver));
   v.list({"soft", "a soft body of tetrahedra"}, keys_of(s.soft));
   v.list({"cloth", "a sheet of triangles"}, keys_of(s.cloth));
+  v.list({"springs", "points with masses, and springs between them"}, keys_of(s.springs));
   v.list({"collider", "what bodies bump into"}, keys_of(s.colliders));
+  v.list({"load", "forces on a part of a body that keep their size and direction"}, keys_of(s.loads));
+  v.list({"attach", "ties between vertices of a body and the surface of another"}, keys_of(s.attachments));
+  v.section({"wind", "moving air; presses on cloths and soft bodies"}, keys_of(s.wind));
   v.section({"contact", "between bodies and colliders"}, keys_of(s.contact));
   v.section({"damping", "of all bodies"}, keys_of(s.damping));
   v.section({"camera", "where the clip is seen from"}, keys_of(s.camera));

@@ -152,6 +152,30 @@ void walk(KeyVisitor& v, Cloth& c) {
   if (v.reading()) check(v, c);
 }
 
+void walk(KeyVisitor& v, Chain& c) {
+  v.key({"from", kPhysics, "m", kPlace, "first point, in the body's coordinates"}, &c.from);
+  v.key({"to", kPhysics, "m", kPlace, "last point"}, &c.to);
+  v.key({"links", kPhysics, "", between(1, kMostPoints - 1), "edges; there is one point more"}, &c.links);
+  if (v.reading()) check(v, c);
+}
+
+void walk(KeyVisitor& v, SpringBody& b) {
+  v.key({"name", kNeither, "", {}, "by which it is called; left out, springs-1, springs-2, ..."}, NameRef{&b.name});
+  v.key({"points", kPhysics, "m", kPlace, "where they are, in the body's coordinates"}, &b.points);
+  v.key({"edges", kPhysics, "", between(0, kMostPoints), "springs between points, by number, from 0"}, &b.edges);
+  v.section({"chain", "a row of points and edges, instead of points"}, keys_of(b.chain));
+  v.key({"mass", kPhysics, "kg", above(0, 1e12), "of each point, or one for each"}, &b.mass);
+  v.key({"stiffness", kPhysics, "N/m", above(0, 1e12), "of each edge, or one for each"}, &b.stiffness);
+  v.key({"rest_length", kPhysics, "m", at_least(0, 1e6), "of each edge, or one for each; left out, as the points lie"},
+        &b.rest_length);
+  v.key({"damping", kPhysics, "N s/m", at_least(0, 1e9), "along each edge"}, &b.damping);
+  v.key({"radius", kPicture, "m", kLength, "of each drawn ball, or one for each; left out, from the edges"}, &b.radius);
+  v.key({"edge_radius", kPicture, "m", kLength, "of drawn rods; left out, a third of the smallest ball's"},
+        &b.edge_radius);
+  walk_body(v, b);
+  if (v.reading()) check(v, b);
+}
+
 void walk(KeyVisitor& v, Collider& c) {
   v.key({"name", kNeither, "", {}, "by which it is called; left out, collider-1, collider-2, ..."}, NameRef{&c.name});
   v.key({"shape", kPhysics, "", {}, "what it is"}, choice(c.shape));

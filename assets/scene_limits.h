@@ -8,6 +8,7 @@ constexpr double kMostFrames = 1e6;
 constexpr double kMostSteps = 1e9;
 constexpr double kMostTriangles = 8e6;          ///< of one cloth: some gigabytes of matrix
 constexpr double kMostTets = 8e6;               ///< of one soft body
+constexpr double kMostPoints = 1e6;             ///< of one body of springs
 constexpr int kTetsPerCell = 6;                 ///< at most, when a block is cut up
 constexpr double kMostPixels = 1 << 26;         ///< 16 bytes each while a frame is averaged: a gigabyte
 constexpr size_t kLargestSceneFile = 16 << 20;  ///< [bytes]

@@ -23,8 +23,8 @@ class Reader : public KeyVisitor {
   void read() {
     walk_scene(*this, scene_);
     leave();
-    if (scene_.soft.empty() && scene_.cloth.empty() && !misread_list_)
-      problem("", "there is nothing to simulate; add a [[soft]] or [[cloth]], such as: [[soft]] block = {}");
+    if (scene_.soft.empty() && scene_.cloth.empty() && scene_.springs.empty() && !misread_list_)
+      problem("", "there is nothing to simulate; add a [[soft]], [[cloth]] or [[springs]], such as: [[soft]] block = {}");
   }
 
   void key(const Key& key, const ValueRef& value) override {
@@ -168,7 +168,10 @@ void name_unnamed(Scene& scene) {
   };
   fill(scene.soft, "soft");
   fill(scene.cloth, "cloth");
+  fill(scene.springs, "springs");
   fill(scene.colliders, "collider");
+  fill(scene.loads, "load");
+  fill(scene.attachments, "attach");
 }
 
 // A file that says nothing about lights gets one, which overrides find too.

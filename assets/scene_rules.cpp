@@ -42,10 +42,11 @@ void note_poisson(KeyVisitor& v, const sim::MaterialTraits& traits, const std::s
                      model, poisson, young / (1 + poisson)));
 }
 
-// Names of bodies and colliders are one set: overrides, reports and exports call them by name.
+// Names of bodies and colliders are one set: overrides, reports and exports call them by name. Loads and attachments
+// have their own.
 void check_names(KeyVisitor& v, const Scene& scene) {
   std::map<std::string, std::string> first;  // name -> where it was first used
-  const auto collect = [&](const auto& things, const char* kind) {
+  const auto collect = [&](const auto& things, const char* kind, const char* whose = "every body and collider needs") {
     for (size_t i = 0; i < things.size(); ++i) {
       const std::string place = fmt::format("{}.{}", kind, i + 1);
       const bool given = !things[i].name.empty();
@@ -53,19 +54,24 @@ void check_names(KeyVisitor& v, const Scene& scene) {
       const auto [it, added] = first.emplace(name, place);
       if (!added)
         v.problem(given ? place + ".name" : place,
-                  fmt::format("the name \"{}\" is already that of {}; every body and collider needs its own", name,
-                              it->second));
+                  fmt::format("the name \"{}\" is already that of {}; {} its own", name, it->second, whose));
     }
   };
   collect(scene.soft, "soft");
   collect(scene.cloth, "cloth");
+  collect(scene.springs, "springs");
   collect(scene.colliders, "collider");
+  first.clear();
+  collect(scene.loads, "load", "every load needs");
+  first.clear();
+  collect(scene.attachments, "attach", "every attachment needs");
 }
 
 template <class Visit>
 void for_each_body(const Scene& scene, const Visit& visit) {
   for (size_t i = 0; i < scene.soft.size(); ++i) visit(fmt::format("soft.{}", i + 1), scene.soft[i]);
   for (size_t i = 0; i < scene.cloth.size(); ++i) visit(fmt::format("cloth.{}", i + 1), scene.cloth[i]);
+  for (size_t i = 0; i < scene.springs.size(); ++i) visit(fmt::format("springs.{}", i + 1), scene.springs[i]);
 }
 
 // An equilibrium knows no velocity: what depends on one would be ignored.
@@ -75,6 +81,9 @@ void check_static(KeyVisitor& v, const Scene& scene) {
     if (v.given(key)) v.problem(key, "has no effect with time.integrator = \"static\", which knows no velocity");
   };
   refuse("damping");
+  refuse("wind");
+  for (size_t i = 0; i < scene.springs.size(); ++i) refuse(fmt::format("springs.{}.damping", i + 1));
+  for (size_t i = 0; i < scene.attachments.size(); ++i) refuse(fmt::format("attach.{}.damping", i + 1));
   for_each_body(scene, [&](const std::string& place, const Body&) {
     refuse(place + ".velocity");
     refuse(place + ".spin");
@@ -111,8 +120,9 @@ void check(KeyVisitor& v, const Solver& s) {
     v.problem("stop", "decrement is Newton's; with this method expected \"residual\" or \"step\"");
 }
 
-void check(KeyVisitor& v, const Scene& scene) {
+void check(KeyVisitor& v, Scene& scene) {
   check_names(v, scene);
+  check_references(v, scene);
   check_static(v, scene);
   check_consistent_mass(v, scene);
 }

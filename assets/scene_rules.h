@@ -4,7 +4,9 @@
 
 namespace softreel::assets {
 
-void check(KeyVisitor& v, const Scene& scene);
+/// Finds the bodies that loads and attachments speak of, too.
+void check(KeyVisitor& v, Scene& scene);
+void check_references(KeyVisitor& v, Scene& scene);
 void check(KeyVisitor& v, const Solver& solver);
 void check(KeyVisitor& v, const Time& time);
 void check(KeyVisitor& v, const Block& block);
@@ -13,7 +15,11 @@ void check(KeyVisitor& v, const Pin& pin);
 void check(KeyVisitor& v, const std::vector<MotionKey>& motion);
 void check(KeyVisitor& v, const SoftBody& body);
 void check(KeyVisitor& v, const Cloth& cloth);
+void check(KeyVisitor& v, const Chain& chain);
+void check(KeyVisitor& v, const SpringBody& body);
 void check(KeyVisitor& v, Collider& collider);
+void check(KeyVisitor& v, const Load& load);
+void check(KeyVisitor& v, const Attach& attach);
 void check(KeyVisitor& v, const Camera& camera);
 void check(KeyVisitor& v, const Light& light);
 void check(KeyVisitor& v, const Render& render);

@@ -68,12 +68,28 @@ class ValueReader {
     return true;
   }
 
-  bool read(const Node& node, std::vector<int>* out) {
+  template <class T>
+  bool read(const Node& node, std::vector<T>* out) {
     if (!node.is_array()) return fail(node);
-    std::vector<int> values(node.children.size());
+    std::vector<T> values(node.children.size());
     for (size_t i = 0; i < values.size(); ++i)
       if (!read(node.children[i], &values[i])) return false;
     *out = std::move(values);
+    return true;
+  }
+
+  // One number stands for all.
+  bool read(const Node& node, std::vector<double>* out) {
+    if (!node.is_number()) return node.children.empty() ? fail(node) : read<double>(node, out);
+    double number = 0;
+    if (!read(node, &number)) return false;
+    out->assign(1, number);
+    return true;
+  }
+
+  bool read(const Node& node, BodyName* out) {
+    if (node.kind != Node::Kind::kString || node.text.empty()) return fail(node);
+    out->name = node.text;
     return true;
   }
 

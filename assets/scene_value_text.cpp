@@ -48,6 +48,13 @@ std::string array_text(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x()
 std::string array_text(const Color& c) { return fmt::format("[{}, {}, {}]", c.r, c.g, c.b); }
 
 template <class T>
+std::string list_text(const std::vector<T>& list) {
+  std::string text;
+  for (const T& item : list) text += (text.empty() ? "" : ", ") + array_text(item);
+  return list.empty() ? "" : "[" + text + "]";
+}
+
+template <class T>
 std::string optional_text(const std::optional<T>& value) {
   if (!value) return {};
   if constexpr (std::is_same_v<T, double>) {
@@ -112,6 +119,11 @@ std::string expected_text(const Key& key, const ValueRef& value, const std::stri
           [&](std::array<int, 2>*) { return "two whole numbers" + unit + each; },
           [&](std::array<int, 3>*) { return "three whole numbers" + unit + each; },
           [&](std::vector<int>*) { return "whole numbers [i, j, ...]" + each; },
+          [&](std::vector<double>*) { return "a number" + unit + ", or a list of them" + each; },
+          [&](std::vector<Vec3>*) { return "points [[x, y, z], ...]" + unit + each; },
+          [&](std::vector<std::array<int, 2>>*) { return "pairs of whole numbers [[i, j], ...]" + each; },
+          [](BodyName*) { return std::string("the name of a body, in quotes"); },
+          [](std::array<BodyName, 2>*) { return std::string("the names of two bodies, [\"a\", \"b\"]"); },
           [](Color*) { return std::string("a colour: \"#rrggbb\", [r, g, b] from 0 to 1, or a name"); },
           [](std::optional<Color>*) { return std::string("a colour: \"#rrggbb\", [r, g, b] from 0 to 1, or a name"); },
           [&](std::optional<Box>*) { return "two corners [[x, y, z], [x, y, z]]" + unit + ", the lower one first"; },
@@ -145,6 +157,14 @@ std::string value_text(const ValueRef& value) {
                         [](std::array<int, 2>* v) { return array_text(*v); },
                         [](std::array<int, 3>* v) { return array_text(*v); },
                         [](std::vector<int>* v) { return array_text(*v); },
+                        [](std::vector<double>* v) { return v->empty() ? std::string() : array_text(*v); },
+                        [](std::vector<Vec3>* v) { return list_text(*v); },
+                        [](std::vector<std::array<int, 2>>* v) { return list_text(*v); },
+                        [](BodyName* v) { return v->name.empty() ? std::string() : toml_string(v->name); },
+                        [](std::array<BodyName, 2>* v) {
+                          if ((*v)[0].name.empty()) return std::string();
+                          return fmt::format("[{}, {}]", toml_string((*v)[0].name), toml_string((*v)[1].name));
+                        },
                         [](Color* v) { return array_text(*v); },
                         [](std::optional<Color>* v) { return optional_text(*v); },
                         [](std::optional<Box>* v) {

@@ -6,7 +6,7 @@
 
 namespace softreel::sim {
 
-/// For the bookkeeping of energies.
+/// For the bookkeeping of energies; dead loads count with gravity.
 enum class EnergyKind { kElastic, kGravity, kContact, kDissipation };
 
 /// Which Hessian an element gives.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/parallel.h"
+#include "sim/stiffness_scale.h"
 #include "sim/stopwatch.h"
 
 namespace softreel::sim {
@@ -26,24 +27,7 @@ double& stage_of(const EnergyTerm& term, StepReport& report) {
 
 IncrementalPotential::IncrementalPotential(const Model& model, const Pins& pins)
     : model_(model), pins_(pins), mass_(model, pins.fixed()), assembler_(model.vertices(), all_terms(model)) {
-  const int n = model.vertices();
-  stiffness_.setZero(n);
-  std::vector<double> blocks;
-  for (const auto& term : model.potentials) {
-    const int k = term->stencil_size();
-    if (k == 0 || term->kind() == EnergyKind::kContact) continue;
-    const auto stencils = term->stencils();
-    const size_t elements = stencils.size() / static_cast<size_t>(k);
-    blocks.resize(elements * static_cast<size_t>(hessian_doubles(k)));
-    term->element_hessians(model.x0, 1.0, Definiteness::kClamped, blocks.data());
-    const double* block = blocks.data();
-    for (size_t e = 0; e < elements; ++e)
-      for (int a = 0; a < k; ++a)
-        for (int b = a; b < k; ++b, block += 9)
-          if (a == b)
-            stiffness_(stencils[e * static_cast<size_t>(k) + static_cast<size_t>(a)]) +=
-                std::max({block[0], block[4], block[8]});
-  }
+  stiffness_ = stiffness_scale(model.potentials, model.x0);
 }
 
 bool IncrementalPotential::damped() const { return stage_.a > 0 && !model_.dissipations.empty(); }

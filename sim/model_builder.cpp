@@ -9,6 +9,7 @@
 #include "sim/membrane.h"
 #include "sim/solid.h"
 #include "sim/stiffness_damping.h"
+#include "sim/stiffness_scale.h"
 
 namespace softreel::sim {
 
@@ -52,7 +53,14 @@ BodyRange ModelBuilder::add_membrane(const std::string& name, const TriangleMesh
 
 BodyRange ModelBuilder::add_mass_spring(const std::string& name, const TriangleMesh& rest, std::vector<Spring> springs,
                                         double areal_density, double spring_damping) {
-  const BodyRange body = add_body(name, rest.vertices, lumped_masses(rest, areal_density));
+  return add_points(name, rest.vertices, lumped_masses(rest, areal_density), std::move(springs), spring_damping);
+}
+
+BodyRange ModelBuilder::add_points(const std::string& name, const std::vector<Vec3>& points,
+                                   const std::vector<double>& masses, std::vector<Spring> springs,
+                                   double spring_damping) {
+  const BodyRange body = add_body(name, points, masses);
+  if (springs.empty()) return body;
   for (Spring& s : springs) {
     s.a += body.first;
     s.b += body.first;
@@ -75,11 +83,32 @@ void ModelBuilder::set_velocity(const BodyRange& body, const Vec3& velocity, con
     Eigen::Map<Vec3>(v_.data() + 3 * static_cast<size_t>(i)) += velocity + spin.cross(position(i) - centre);
 }
 
+void ModelBuilder::add_ties(const std::vector<Tie>& ties, double damping) {
+  for (auto& term : make_ties(ties)) model_.potentials.push_back(std::move(term));
+  if (damping <= 0) return;
+  for (auto& term : make_tie_damping(ties, damping)) model_.dissipations.push_back(std::move(term));
+}
+
+void ModelBuilder::set_wind(const Wind& wind, std::vector<WindSurface> surfaces) {
+  wind_ = wind;
+  wind_surfaces_ = std::move(surfaces);
+}
+
+Eigen::VectorXd ModelBuilder::masses() const {
+  return Eigen::Map<const Eigen::VectorXd>(masses_.data(), static_cast<Eigen::Index>(masses_.size()));
+}
+
+Eigen::VectorXd ModelBuilder::positions() const {
+  return Eigen::Map<const Eigen::VectorXd>(x_.data(), static_cast<Eigen::Index>(x_.size()));
+}
+
+Eigen::VectorXd ModelBuilder::stiffness() const { return stiffness_scale(model_.potentials, positions()); }
+
 Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vector<Collider> colliders,
                            const ContactSettings& settings) {
   Model& m = model_;
-  m.masses = Eigen::Map<const Eigen::VectorXd>(masses_.data(), static_cast<Eigen::Index>(masses_.size()));
-  m.x0 = Eigen::Map<const Eigen::VectorXd>(x_.data(), static_cast<Eigen::Index>(x_.size()));
+  m.masses = masses();
+  m.x0 = positions();
   m.v0 = Eigen::Map<const Eigen::VectorXd>(v_.data(), static_cast<Eigen::Index>(v_.size()));
   if (damping.beta > 0) {
     std::vector<const EnergyTerm*> elastic;
@@ -87,9 +116,15 @@ Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vec
     for (const EnergyTerm* term : elastic) m.dissipations.push_back(make_stiffness_damping(*term, damping.beta));
   }
   if (gravity.squaredNorm() > 0) m.potentials.push_back(make_gravity(m.masses, gravity));
-  if (damping.drag + damping.alpha > 0) m.dissipations.push_back(make_drag(m.masses, damping.drag + damping.alpha));
+  for (auto& load : loads_) m.potentials.push_back(std::move(load));
+  // Drag is against the air, Rayleigh's part against rest.
+  const double still = damping.alpha + (wind_ ? 0 : damping.drag);
+  if (still > 0) m.dissipations.push_back(make_drag(m.masses, still));
   if (damping.alpha > 0)  // alpha M, of the mass as it is; drag is one force per vertex
     for (const auto& make : scaled_corrections_) m.dissipations.push_back(make(damping.alpha));
+  if (wind_ && damping.drag > 0) m.dissipations.push_back(make_wind_drag(*wind_, m.masses, damping.drag));
+  if (!wind_surfaces_.empty() && wind_->density * (wind_->drag + wind_->friction) > 0)
+    m.dissipations.push_back(make_wind(*wind_, wind_surfaces_));
   if (!colliders.empty()) {
     const bool rough =
         std::any_of(colliders.begin(), colliders.end(), [](const Collider& c) { return c.friction > 0; });

@@ -2,13 +2,17 @@
 // Puts a model together, body by body; what is not asked for is not built.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/attachment.h"
 #include "sim/collider_contact.h"
+#include "sim/load.h"
 #include "sim/mesh.h"
 #include "sim/model.h"
 #include "sim/springs.h"
+#include "sim/wind.h"
 
 namespace softreel::sim {
 
@@ -34,7 +38,7 @@ struct MembraneMaterial {
 };
 
 struct Damping {
-  double drag = 0;   ///< [1/s] >= 0
+  double drag = 0;   ///< against the velocity relative to the wind [1/s] >= 0
   double alpha = 0;  ///< Rayleigh, mass [1/s] >= 0
   double beta = 0;   ///< Rayleigh, stiffness [s] >= 0
 };
@@ -47,10 +51,23 @@ class ModelBuilder {
   /// `springs`: vertex indices of `rest`; `spring_damping` [N s/m].
   BodyRange add_mass_spring(const std::string& name, const TriangleMesh& rest, std::vector<Spring> springs,
                             double areal_density, double spring_damping);
+  /// Points with masses [kg] > 0; `springs`: indices of `points`; `spring_damping` [N s/m].
+  BodyRange add_points(const std::string& name, const std::vector<Vec3>& points, const std::vector<double>& masses,
+                       std::vector<Spring> springs, double spring_damping);
 
   /// v += velocity + spin x (x - centre of mass); velocity [m/s], spin [rad/s].
   void set_velocity(const BodyRange& body, const Vec3& velocity, const Vec3& spin);
   void add_pin(Pin pin) { model_.pins.push_back(std::move(pin)); }
+  void add_load(NodalForces forces, const LoadTimes& times) { loads_.push_back(make_load(std::move(forces), times)); }
+  /// `damping` of each tie [N s/m] >= 0.
+  void add_ties(const std::vector<Tie>& ties, double damping);
+  /// Wind on `surfaces`; [damping] drag is relative to it.
+  void set_wind(const Wind& wind, std::vector<WindSurface> surfaces);
+
+  /// Of the bodies added so far: masses, n [kg], positions, 3n [m], and how stiff they are (stiffness_scale), n [N/m].
+  Eigen::VectorXd masses() const;
+  Eigen::VectorXd positions() const;
+  Eigen::VectorXd stiffness() const;
 
   /// Adds gravity [m/s^2], damping and contact, as far as they are not zero or empty. The builder is empty afterwards.
   Model finish(const Vec3& gravity, const Damping& damping, std::vector<Collider> colliders,
@@ -66,6 +83,9 @@ class ModelBuilder {
   std::vector<std::function<std::unique_ptr<EnergyTerm>(double)>> scaled_corrections_;
   std::vector<double> masses_;
   std::vector<double> x_, v_;
+  std::vector<std::unique_ptr<EnergyTerm>> loads_;
+  std::optional<Wind> wind_;
+  std::vector<WindSurface> wind_surfaces_;
 };
 
 }  // namespace softreel::sim

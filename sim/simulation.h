@@ -26,8 +26,10 @@ struct SimulationSettings {
 
 /// Energies of the whole scene [J].
 struct Energies {
-  double kinetic = 0, elastic = 0, gravity = 0, contact = 0;
-  double dissipated = 0;  ///< by dissipation potentials, since the start; the method's own damping is not in it
+  double kinetic = 0, elastic = 0, gravity = 0, contact = 0;  ///< gravity: and dead loads
+  /// What dissipation potentials have taken out of the motion since the start, less what wind has put in; the method's
+  /// own damping is not in it.
+  double dissipated = 0;
 };
 
 class Simulation {

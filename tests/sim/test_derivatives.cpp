@@ -3,15 +3,18 @@
 #include <Eigen/Geometry>
 #include <string>
 
+#include "sim/attachment.h"
 #include "sim/bending.h"
 #include "sim/body_forces.h"
 #include "sim/collider_contact.h"
 #include "sim/grids.h"
+#include "sim/load.h"
 #include "sim/materials/lame.h"
 #include "sim/membrane.h"
 #include "sim/solid.h"
 #include "sim/springs.h"
 #include "sim/stiffness_damping.h"
+#include "sim/wind.h"
 #include "tests/sim/derivatives.h"
 
 using namespace softreel::sim;
@@ -174,6 +177,46 @@ TEST_CASE("the derivatives of contact and friction with every collider agree wit
   CHECK(f.gradient < 1e-6);
   CHECK(f.hessian < 1e-6);
   CHECK(f.most_negative > -1e-10);
+}
+
+TEST_CASE("the derivatives of loads and of wind agree with central differences") {
+  const TriangleMesh sheet = grid_sheet(1, 1, 2, 2);
+  const Eigen::VectorXd x = stacked(sheet.vertices) + random_vector(27, 0.1, 1), v = random_vector(27, 3, 2);
+  const auto load = make_load({{2, 5}, {Vec3(1, 2, 3), Vec3(0, -1, 0)}}, {0.1, 5, 0.3});
+  load->begin_step({x, v, x, 0.2, 0.01});
+  check_derivatives(*load, {{"random", x}}, 1);
+  Wind wind;
+  wind.velocity = Vec3(1, 2, 0.5);
+  wind.friction = 0.1;
+  wind.gusts = 0.5;
+  for (bool closed : {false, true}) {
+    const auto pressure = make_wind(wind, {{sheet.triangles, closed}});
+    pressure->begin_step({x, v, x, 0.2, 0.01});
+    check_derivatives(*pressure, {{"random velocities", v}, {"at rest", Eigen::VectorXd::Zero(27)}}, 0.1);
+  }
+  const auto drag = make_wind_drag(wind, Eigen::VectorXd::LinSpaced(9, 1, 2), 0.7);
+  drag->begin_step({x, v, x, 0.2, 0.01});
+  check_derivatives(*drag, {{"random velocities", v}}, 1);
+}
+
+TEST_CASE("the derivatives of ties of every kind, and of their damping, agree with central differences") {
+  const std::vector<Vec3> rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.2, 0.4}, {2, 0, 0}, {2, 0.5, 0}};
+  const Vec3 inside(0.5, 0.3, 0.2), to_corners(rest[3].norm(), (rest[3] - rest[1]).norm(), (rest[3] - rest[2]).norm());
+  const std::vector<std::vector<Tie>> kinds = {{{3, {0, 1, 2}, inside, 10, 0, Vec3::Zero()}},
+                                               {{3, {0, 1, 2}, inside, 10, 0.4, to_corners}},
+                                               {{4, {5, 5, 5}, Vec3(1, 0, 0), 10, 0, Vec3::Zero()}},
+                                               {{4, {5, 5, 5}, Vec3(1, 0, 0), 10, 0.5, Vec3::Zero()}}};
+  for (const std::vector<Tie>& ties : kinds) {
+    CAPTURE(ties[0].vertex);
+    CAPTURE(ties[0].length);
+    const auto potential = make_ties(ties), damping = make_tie_damping(ties, 3.0);
+    REQUIRE(potential.size() == 1);
+    REQUIRE(damping.size() == 1);
+    check_derivatives(*potential[0], states(rest, false), 10);
+    const Eigen::VectorXd x = stacked(rest), v = random_vector(x.size(), 1, 5);
+    damping[0]->begin_step({x, v, x, 0, 0.01});
+    check_derivatives(*damping[0], {{"random velocities", v}}, 3);
+  }
 }
 
 TEST_CASE("a sheet bent to a cylinder stores half its rigidity times curvature squared per area") {
