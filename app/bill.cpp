@@ -36,13 +36,26 @@ std::vector<BillItem> bill_of(const Scene& s) {
   add("bending", bending > 0, number(bending, "membrane has a bending stiffness", "membranes have a bending stiffness"),
       membranes > 0 ? "material.bending is 0" : "no cloth is a membrane");
   const auto springs = count(s.cloth, [](const Cloth& c) { return c.model == ClothModel::kMassSpring; });
-  add("springs", springs > 0, number(springs, "cloth", "cloths"), "no cloth is mass-spring");
+  add("springs", springs > 0 || !s.springs.empty(),
+      springs > 0 ? number(springs, "cloth", "cloths") : number(s.springs.size(), "body of points", "bodies of points"),
+      "no cloth is mass-spring, and there are no points");
+  add("loads", !s.loads.empty(), number(s.loads.size(), "load", "loads"), "there is no load");
+  add("attachments", !s.attachments.empty(), number(s.attachments.size(), "attachment", "attachments"),
+      "nothing is tied together");
+  add("wind", s.wind.has_value(),
+      !s.wind         ? ""
+      : s.wind->gusts ? fmt::format("{:.4g} m/s with gusts", s.wind->velocity.norm())
+                      : fmt::format("{:.4g} m/s", s.wind->velocity.norm()),
+      "there is no [wind]");
   add("gravity", s.gravity.squaredNorm() > 0, fmt::format("{:.4g} m/s^2", s.gravity.norm()), "gravity is zero");
   const bool damped = s.damping.drag + s.damping.alpha + s.damping.beta > 0 ||
-                      count(s.cloth, [](const Cloth& c) { return c.spring_damping > 0; }) > 0;
-  add("damping", damped, "[damping] or spring_damping is set", "nothing is damped");
+                      count(s.cloth, [](const Cloth& c) { return c.spring_damping > 0; }) > 0 ||
+                      count(s.springs, [](const SpringBody& b) { return b.damping > 0; }) > 0 ||
+                      count(s.attachments, [](const Attach& a) { return a.damping > 0; }) > 0;
+  add("damping", damped, "[damping] or the damping of springs or ties is set", "nothing is damped");
   const auto pinned = [](const Body& b) { return !b.pins.empty(); };
-  add("pins", count(s.soft, pinned) + count(s.cloth, pinned) > 0, "some vertices are held", "no vertex is held");
+  add("pins", count(s.soft, pinned) + count(s.cloth, pinned) + count(s.springs, pinned) > 0, "some vertices are held",
+      "no vertex is held");
   add("contact with colliders", !s.colliders.empty(), number(s.colliders.size(), "collider", "colliders"),
       "there is no collider");
   add("friction", count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0, "some colliders are rough",

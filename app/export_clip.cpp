@@ -38,6 +38,8 @@ struct ExportBody {
   int surface_count = 0;     // of them, those that the surface uses come first
   const std::vector<sim::Triangle>* triangles = nullptr;
   const std::vector<sim::Tet>* tets = nullptr;
+  const BallsAndRods* net = nullptr;  // exported as it is drawn
+  std::vector<sim::Triangle> net_triangles = {};
 };
 
 std::vector<ExportBody> bodies_of(const assets::Scene& scene, const Shapes& shapes) {
@@ -57,12 +59,35 @@ std::vector<ExportBody> bodies_of(const assets::Scene& scene, const Shapes& shap
     bodies.push_back({file_stem(scene.cloth[i].name, taken), first, count, count, &c.rest.triangles, nullptr});
     first += count;
   }
+  for (size_t i = 0; i < scene.springs.size(); ++i) {
+    const SpringShape& s = shapes.springs[i];
+    const int count = static_cast<int>(s.rest.size());
+    if (s.drawn) {
+      ExportBody body{file_stem(scene.springs[i].name, taken), first, count, 0, nullptr, nullptr, &*s.drawn};
+      const render::SurfaceMesh mesh = s.drawn->mesh();
+      body.surface_count = static_cast<int>(mesh.position_count);
+      for (const glm::uvec3& t : mesh.triangles)
+        body.net_triangles.push_back({static_cast<int>(t.x), static_cast<int>(t.y), static_cast<int>(t.z)});
+      bodies.push_back(std::move(body));
+    }
+    first += count;
+  }
+  for (ExportBody& body : bodies)
+    if (body.net) body.triangles = &body.net_triangles;
   return bodies;
 }
 
 std::vector<Vec3> points(const Eigen::VectorXd& stacked, int first, int count) {
   std::vector<Vec3> result;
   for (int i = first; i < first + count; ++i) result.emplace_back(stacked.segment<3>(3 * i));
+  return result;
+}
+
+/// What the surface of a body is made of.
+std::vector<Vec3> surface_points(const ExportBody& body, const Eigen::VectorXd& x) {
+  if (!body.net) return points(x, body.first, body.surface_count);
+  std::vector<Vec3> result;
+  for (const glm::vec3& p : body.net->positions(x, body.first)) result.emplace_back(p.x, p.y, p.z);
   return result;
 }
 
@@ -84,6 +109,11 @@ void export_clip(const assets::Scene& scene, const Shapes& shapes, const ClipCac
       const ExportBody& body = bodies[b];
       const std::string name = fmt::format("{}_{:04d}.{}", body.name, frames[f], format);
       if (format == "vtu") {
+        if (body.net) {
+          assets::write_vtu(folder / name, {surface_points(body, data->state.x), {}, *body.triangles, {}});
+          series.push_back({data->state.t, name, static_cast<int>(b), body.name});
+          continue;
+        }
         const std::vector<Vec3> x = points(data->state.x, body.first, body.count);
         const std::vector<Vec3> v = points(data->state.v, body.first, body.count);
         if (body.tets)
@@ -93,7 +123,7 @@ void export_clip(const assets::Scene& scene, const Shapes& shapes, const ClipCac
         series.push_back({data->state.t, name, static_cast<int>(b), body.name});
         continue;
       }
-      const std::vector<Vec3> x = points(data->state.x, body.first, body.surface_count);
+      const std::vector<Vec3> x = surface_points(body, data->state.x);
       if (format == "ply") {
         assets::write_ply(folder / name, x, *body.triangles);
         continue;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "app/interrupt.h"
 #include "app/placement.h"
@@ -91,6 +93,51 @@ ClothShape load_cloth(const assets::Scene& scene, const assets::Cloth& cloth, Sh
   return shape;
 }
 
+/// One number for all, or one for each.
+double of_each(const std::vector<double>& list, size_t i) { return list.size() == 1 ? list[0] : list[i]; }
+
+/// A tenth of the mean edge, larger for more mass (balls of one density).
+std::vector<double> ball_radii(const assets::SpringBody& body, const SpringShape& shape) {
+  double edge = 0, mass = 0;
+  const size_t n = shape.rest.size();
+  for (const auto& [i, j] : shape.edges)
+    edge += (shape.rest[static_cast<size_t>(i)] - shape.rest[static_cast<size_t>(j)]).norm();
+  edge = shape.edges.empty() ? 0.5 : edge / static_cast<double>(shape.edges.size());
+  for (size_t i = 0; i < n; ++i) mass += of_each(body.masses, i) / static_cast<double>(n);
+  std::vector<double> radii;
+  for (size_t i = 0; i < n; ++i)
+    radii.push_back(body.radius.empty() ? 0.1 * edge * std::cbrt(of_each(body.masses, i) / mass)
+                                        : of_each(body.radius, i));
+  return radii;
+}
+
+SpringShape load_springs(const assets::SpringBody& body, Shapes& shapes) {
+  SpringShape shape;
+  shape.rest = body.points;
+  shape.edges = body.edges;
+  if (body.chain) {
+    const int links = body.chain->links;
+    for (int i = 0; i <= links; ++i) {
+      const double s = static_cast<double>(i) / links;
+      shape.rest.push_back((1 - s) * body.chain->from + s * body.chain->to);
+      if (i > 0) shape.edges.push_back({i - 1, i});
+    }
+  }
+  scale_about_pivot(body.transform, shape.rest);
+  place(body.transform, shape.rest);
+  std::vector<bool> joined(shape.rest.size(), false);
+  for (const auto& [i, j] : shape.edges) joined[static_cast<size_t>(i)] = joined[static_cast<size_t>(j)] = true;
+  if (const auto alone = std::count(joined.begin(), joined.end(), false); alone > 0)
+    shapes.notes.push_back(fmt::format("springs '{}': {} of {} points {} joined to nothing", body.name, alone,
+                                       joined.size(), alone == 1 ? "is" : "are"));
+  if (body.visible) {
+    const std::vector<double> radii = ball_radii(body, shape);
+    shape.drawn.emplace(shape.rest, shape.edges, radii,
+                        body.edge_radius.value_or(*std::min_element(radii.begin(), radii.end()) / 3));
+  }
+  return shape;
+}
+
 }  // namespace
 
 assets::MeshOptions mesh_options(const assets::MeshSource& source) {
@@ -105,6 +152,7 @@ Shapes load_shapes(const assets::Scene& scene, const std::filesystem::path& cach
   Shapes shapes;
   for (const assets::SoftBody& soft : scene.soft) shapes.soft.push_back(load_solid(scene, soft, cache_folder, shapes));
   for (const assets::Cloth& cloth : scene.cloth) shapes.cloth.push_back(load_cloth(scene, cloth, shapes));
+  for (const assets::SpringBody& body : scene.springs) shapes.springs.push_back(load_springs(body, shapes));
   return shapes;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 // Everything that a scene's bodies need from files, loaded and placed: before anything is simulated or drawn.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/balls_and_rods.h"
 #include "assets/scene.h"
 #include "assets/surface_import.h"
 #include "sim/mesh.h"
@@ -26,10 +28,17 @@ struct ClothShape {
   BodySurface drawn;
 };
 
+struct SpringShape {
+  std::vector<sim::Vec3> rest;            ///< placed [m]
+  std::vector<std::array<int, 2>> edges;  ///< over `rest`
+  std::optional<BallsAndRods> drawn;      ///< if visible
+};
+
 struct Shapes {
-  std::vector<SolidShape> soft;    ///< as scene.soft
-  std::vector<ClothShape> cloth;   ///< as scene.cloth
-  std::vector<std::string> notes;  ///< what the user should know (textures not found, triangles left out)
+  std::vector<SolidShape> soft;      ///< as scene.soft
+  std::vector<ClothShape> cloth;     ///< as scene.cloth
+  std::vector<SpringShape> springs;  ///< as scene.springs
+  std::vector<std::string> notes;    ///< what the user should know (textures not found, triangles left out)
   double tetrahedralize_seconds = 0;
   bool used_tetgen = false;      ///< a surface had to be filled
   bool tets_from_cache = false;  ///< and all of them were in the cache

@@ -71,6 +71,18 @@ void for_each_body(const assets::Scene& scene, const Shapes& shapes, const Each&
   }
 }
 
+/// Calls each(body, drawn shape, first vertex) for visible bodies of springs, which come after the others in the state.
+template <class Each>
+void for_each_net(const assets::Scene& scene, const Shapes& shapes, const Each& each) {
+  int first = 0;
+  for (const SolidShape& s : shapes.soft) first += static_cast<int>(s.rest.vertices.size());
+  for (const ClothShape& c : shapes.cloth) first += static_cast<int>(c.rest.vertices.size());
+  for (size_t i = 0; i < scene.springs.size(); ++i) {
+    if (shapes.springs[i].drawn) each(scene.springs[i], *shapes.springs[i].drawn, first);
+    first += static_cast<int>(shapes.springs[i].rest.size());
+  }
+}
+
 }  // namespace
 
 bool needs_whole_clip(const assets::Scene& scene) {
@@ -94,6 +106,16 @@ void add_frame(const assets::Scene& scene, const Shapes& shapes, const sim::Stat
   for_each_body(scene, shapes, [&](const assets::Body& body, const BodySurface& drawn, int first, bool) {
     if (body.visible) extent.add(box_around(state.x, first, drawn.position_count));
   });
+  for_each_net(scene, shapes, [&](const assets::SpringBody&, const BallsAndRods& drawn, int first) {
+    render::Bounds box;
+    for (size_t i = 0; i < drawn.radii().size(); ++i) {
+      const glm::vec3 p = to_glm(Eigen::Vector3d(state.x.segment<3>(3 * (first + static_cast<int>(i)))));
+      const glm::vec3 r(static_cast<float>(drawn.radii()[i]));
+      box.add(p - r);
+      box.add(p + r);
+    }
+    extent.add(box);
+  });
   for (const assets::Collider& c : scene.colliders)
     if (c.visible && c.shape != assets::ColliderShape::kPlane)
       extent.add(moved(shape_of(c, extent), make_collider(c).pose(state.t)));
@@ -116,6 +138,9 @@ void Stage::add_bodies(const Shapes& shapes) {
     DrawnSurface d =
         drawn_surface(drawn.surface, drawn.position_count, body.look, texture_path(scene_, body.look), cloth);
     bodies_.push_back({renderer_.add_mesh(std::move(d.mesh), std::move(d.looks)), first, drawn.position_count});
+  });
+  for_each_net(scene_, shapes, [&](const assets::SpringBody& body, const BallsAndRods& drawn, int first) {
+    nets_.push_back({renderer_.add_mesh(drawn.mesh(), {plain_look(body.look, std::nullopt, false)}), first, &drawn});
   });
 }
 
@@ -207,6 +232,7 @@ void Stage::place_ground(const ClipExtent& extent) {
 
 render::Image Stage::draw(const sim::State& state) {
   for (const DrawnBody& body : bodies_) renderer_.set_positions(body.mesh, points_of(state.x, body.first, body.count));
+  for (const DrawnNet& net : nets_) renderer_.set_positions(net.mesh, net.shape->positions(state.x, net.first));
   for (const DrawnCollider& c : colliders_)
     if (c.moves) renderer_.set_transform(c.mesh, to_glm(c.collider.pose(state.t)));
   return renderer_.render(camera_, lights_, environment_);

@@ -30,7 +30,8 @@ void add_frame(const assets::Scene& scene, const Shapes& shapes, const sim::Stat
 
 class Stage {
  public:
-  /// Builds meshes and looks; camera, ground and lights from `extent` where the scene leaves them open.
+  /// Builds meshes and looks; camera, ground and lights from `extent` where the scene leaves them open. `scene` and
+  /// `shapes` must outlive this.
   Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent);
 
   render::Image draw(const sim::State& state);
@@ -47,6 +48,11 @@ class Stage {
     render::MeshId mesh;
     int first = 0, count = 0;  // vertices of the state
   };
+  struct DrawnNet {
+    render::MeshId mesh;
+    int first = 0;  // vertex of the state
+    const BallsAndRods* shape = nullptr;
+  };
   struct DrawnCollider {
     render::MeshId mesh;
     sim::Collider collider;
@@ -56,6 +62,7 @@ class Stage {
   const assets::Scene& scene_;
   render::Renderer renderer_;
   std::vector<DrawnBody> bodies_;
+  std::vector<DrawnNet> nets_;
   std::vector<DrawnCollider> colliders_;
   const assets::Collider* ground_plane_ = nullptr;  // a plane collider that is drawn as the ground
   render::Camera camera_;

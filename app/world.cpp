@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "app/body_part.h"
+#include "app/couplings.h"
 #include "app/placement.h"
 #include "assets/error.h"
 #include "assets/scene_names.h"
@@ -31,8 +33,6 @@ sim::Pin make_pin(const assets::Scene& scene, const assets::Body& body, size_t n
                     fmt::format("pin {} of '{}' {}", number + 1, body.name, why));
   };
   sim::Pin result;
-  Eigen::AlignedBox3d bounds;
-  for (const Vec3& p : rest) bounds.extend(p);
   std::vector<bool> held(rest.size(), false);
   for (int v : pin.vertices) {
     if (v < 0 || static_cast<size_t>(v) >= rest.size())
@@ -40,19 +40,14 @@ sim::Pin make_pin(const assets::Scene& scene, const assets::Body& body, size_t n
     held[static_cast<size_t>(v)] = true;
   }
   if (pin.box)
-    for (size_t i = 0; i < rest.size(); ++i)
-      if ((rest[i].array() >= pin.box->lo.array()).all() && (rest[i].array() <= pin.box->hi.array()).all())
-        held[i] = true;
+    for (int v : vertices_in(*pin.box, rest)) held[static_cast<size_t>(v)] = true;
   Vec3 mean = Vec3::Zero();
   for (size_t i = 0; i < rest.size(); ++i)
     if (held[i]) {
       result.vertices.push_back(range.first + static_cast<int>(i));
       mean += rest[i];
     }
-  if (result.vertices.empty())
-    refuse(fmt::format(
-        "holds no vertex: the body reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) [m]",
-        bounds.min().x(), bounds.min().y(), bounds.min().z(), bounds.max().x(), bounds.max().y(), bounds.max().z()));
+  if (result.vertices.empty()) refuse(fmt::format("holds no vertex: the body {}", reach_text(rest)));
   mean /= static_cast<double>(result.vertices.size());
   for (size_t a = 0; a < 3; ++a) result.axes[a] = pin.axes[a];
   if (!pin.motion.empty()) {
@@ -94,8 +89,46 @@ sim::BendingModel bending_model(assets::BendingModel model) {
   return sim::BendingModel::kAuto;
 }
 
-void add_cloth(const assets::Scene& scene, const assets::Cloth& cloth, const ClothShape& shape,
-               sim::ModelBuilder& builder) {
+/// What the physics refuses about a body is the user's mistake.
+template <class Add>
+sim::BodyRange checked(const assets::Scene& scene, const char* kind, const assets::Body& body, const Add& add) {
+  try {
+    return add();
+  } catch (const std::invalid_argument& e) {
+    throw UserError(ErrorKind::kInput, scene.file.string(), fmt::format("{} '{}': {}", kind, body.name, e.what()));
+  }
+}
+
+sim::BodyRange add_soft(const assets::Scene& scene, const assets::SoftBody& soft, const SolidShape& shape,
+                        sim::ModelBuilder& builder) {
+  const sim::BodyRange range = checked(scene, "soft", soft, [&] {
+    return builder.add_solid(soft.name, shape.rest,
+                             {soft.material.model, soft.material.young, soft.material.poisson, soft.density,
+                              soft.mass == assets::MassModel::kConsistent});
+  });
+  finish_body(scene, soft, shape.rest.vertices, range, builder);
+  return range;
+}
+
+sim::BodyRange add_springs(const assets::Scene& scene, const assets::SpringBody& body, const SpringShape& shape,
+                           sim::ModelBuilder& builder) {
+  const auto of_each = [](const std::vector<double>& list, size_t i) { return list.size() == 1 ? list[0] : list[i]; };
+  std::vector<double> masses;
+  for (size_t i = 0; i < shape.rest.size(); ++i) masses.push_back(of_each(body.masses, i));
+  std::vector<sim::Spring> springs;
+  for (size_t e = 0; e < shape.edges.size(); ++e) {
+    const auto [i, j] = shape.edges[e];
+    const double apart = (shape.rest[static_cast<size_t>(i)] - shape.rest[static_cast<size_t>(j)]).norm();
+    springs.push_back(
+        {i, j, of_each(body.stiffness, e), body.rest_length.empty() ? apart : of_each(body.rest_length, e)});
+  }
+  const sim::BodyRange range = builder.add_points(body.name, shape.rest, masses, std::move(springs), body.damping);
+  finish_body(scene, body, shape.rest, range, builder);
+  return range;
+}
+
+sim::BodyRange add_cloth(const assets::Scene& scene, const assets::Cloth& cloth, const ClothShape& shape,
+                         sim::ModelBuilder& builder) {
   sim::BodyRange range;
   try {
     if (cloth.model == assets::ClothModel::kMassSpring) {
@@ -117,6 +150,7 @@ void add_cloth(const assets::Scene& scene, const assets::Cloth& cloth, const Clo
     throw UserError(ErrorKind::kInput, scene.file.string(), fmt::format("cloth '{}': {}", cloth.name, e.what()));
   }
   finish_body(scene, cloth, shape.rest.vertices, range, builder);
+  return range;
 }
 
 /// An equilibrium of what can drift away does not exist, or is any place at all.
@@ -163,15 +197,23 @@ sim::Collider make_collider(const assets::Collider& c) {
 
 sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
   sim::ModelBuilder builder;
+  std::vector<PlacedBody> bodies;
+  const auto number = [](const char* kind, size_t i) { return fmt::format("{}.{}", kind, i + 1); };
   for (size_t i = 0; i < scene.soft.size(); ++i) {
-    const assets::SoftBody& soft = scene.soft[i];
     const sim::TetMesh& rest = shapes.soft[i].rest;
-    const sim::BodyRange range = builder.add_solid(soft.name, rest,
-                                                   {soft.material.model, soft.material.young, soft.material.poisson,
-                                                    soft.density, soft.mass == assets::MassModel::kConsistent});
-    finish_body(scene, soft, rest.vertices, range, builder);
+    bodies.push_back({number("soft", i), scene.soft[i].name, add_soft(scene, scene.soft[i], shapes.soft[i], builder),
+                      &rest.vertices, &rest, nullptr});
   }
-  for (size_t i = 0; i < scene.cloth.size(); ++i) add_cloth(scene, scene.cloth[i], shapes.cloth[i], builder);
+  for (size_t i = 0; i < scene.cloth.size(); ++i) {
+    const sim::TriangleMesh& rest = shapes.cloth[i].rest;
+    bodies.push_back({number("cloth", i), scene.cloth[i].name,
+                      add_cloth(scene, scene.cloth[i], shapes.cloth[i], builder), &rest.vertices, nullptr, &rest});
+  }
+  for (size_t i = 0; i < scene.springs.size(); ++i)
+    bodies.push_back({number("springs", i), scene.springs[i].name,
+                      add_springs(scene, scene.springs[i], shapes.springs[i], builder), &shapes.springs[i].rest,
+                      nullptr, nullptr});
+  add_couplings(scene, bodies, builder);
   std::vector<sim::Collider> colliders;
   for (const assets::Collider& c : scene.colliders) colliders.push_back(make_collider(c));
   sim::Model model =

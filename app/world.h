@@ -7,8 +7,8 @@
 
 namespace softreel::app {
 
-/// Bodies in the order soft, cloth. Throws UserError (kUsage) for what only the meshes show to be wrong: a pin that
-/// holds no vertex, a mesh with flat triangles for a cloth.
+/// Bodies in the order soft, cloth, springs. Throws UserError (kUsage) for what only the meshes show to be wrong: a pin
+/// that holds no vertex, a load that finds nothing, a mesh with flat triangles for a cloth.
 sim::Model build_model(const assets::Scene& scene, const Shapes& shapes);
 
 sim::SimulationSettings simulation_settings(const assets::Scene& scene);

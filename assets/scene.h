@@ -182,13 +182,13 @@ struct Chain {
   int links = 10;                ///< edges; there is one point more
 };
 
-/// Points with masses, and springs between them: oscillators, chains, pendulums. Lists hold one number for all, or one for
-/// each.
+/// Points with masses, and springs between them: oscillators, chains, pendulums. Lists hold one number for all, or one
+/// for each.
 struct SpringBody : Body {
   std::vector<Vec3> points;               ///< [m]; exactly one of `points` and `chain` is given
   std::vector<std::array<int, 2>> edges;  ///< numbers of points, from 0
   std::optional<Chain> chain;
-  std::vector<double> mass = {0.1};       ///< of each point [kg]
+  std::vector<double> masses = {0.1};     ///< of each point [kg]
   std::vector<double> stiffness = {1e3};  ///< of each edge [N/m]
   std::vector<double> rest_length;        ///< of each edge [m]; empty: the distance of its points
   double damping = 0;                     ///< along each edge [N s/m]
@@ -206,23 +206,23 @@ struct BodyName {
 struct Load {
   std::string name;  ///< unique among loads; made up ("load-1") when the file gives none
   BodyName body;
-  std::optional<Box> box;         ///< what lies inside, after the body's transform
-  std::optional<Vec3> force;      ///< in all, shared out by mass [N]; exactly one of `force` and `traction` is given
-  std::optional<Vec3> traction;   ///< on the rest area of surface triangles that are all inside [Pa]
-  double from = 0;                ///< [s]
-  std::optional<double> until;    ///< [s], later than `from`
-  double ramp = 0;                ///< time in which it rises, in a straight line [s]
+  std::optional<Box> box;        ///< what lies inside, after the body's transform
+  std::optional<Vec3> force;     ///< in all, shared out by mass [N]; exactly one of `force` and `traction` is given
+  std::optional<Vec3> traction;  ///< on the rest area of surface triangles that are all inside [Pa]
+  double from = 0;               ///< [s]
+  std::optional<double> until;   ///< [s], later than `from`
+  double ramp = 0;               ///< time in which it rises, in a straight line [s]
 };
 
 /// Ties between vertices of a body and the surface of another.
 struct Attach {
-  std::string name;                ///< unique among attachments; made up ("attach-1") when the file gives none
-  std::array<BodyName, 2> bodies;  ///< vertices of the first are bound to the second
-  std::optional<Box> box;          ///< which vertices, after the body's transform; absent: all
-  std::optional<double> near;      ///< only those nearer than this to the second [m]
-  std::optional<double> stiffness; ///< of each tie [N/m]; absent: ten times that of the softer body around it
-  double damping = 0;              ///< of each tie [N s/m]
-  bool snap = false;               ///< draw the points together, whatever their distance
+  std::string name;                 ///< unique among attachments; made up ("attach-1") when the file gives none
+  std::array<BodyName, 2> bodies;   ///< vertices of the first are bound to the second
+  std::optional<Box> box;           ///< which vertices, after the body's transform; absent: all
+  std::optional<double> near;       ///< only those nearer than this to the second [m]
+  std::optional<double> stiffness;  ///< of each tie [N/m]; absent: ten times that of the softer body around it
+  double damping = 0;               ///< of each tie [N s/m]
+  bool snap = false;                ///< draw the points together, whatever their distance
 };
 
 struct Gusts {

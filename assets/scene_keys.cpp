@@ -43,7 +43,8 @@ void walk(KeyVisitor& v, Contact& c) {
 }
 
 void walk(KeyVisitor& v, Damping& d) {
-  v.key({"drag", kPhysics, "1/s", at_least(0, 1e9), "force against the velocity relative to the wind, per mass"}, &d.drag);
+  v.key({"drag", kPhysics, "1/s", at_least(0, 1e9), "force against the velocity relative to the wind, per mass"},
+        &d.drag);
   v.key({"alpha", kPhysics, "1/s", at_least(0, 1e9), "Rayleigh damping by the mass"}, &d.alpha);
   v.key({"beta", kPhysics, "s", at_least(0, 1e6), "Rayleigh damping by the stiffness"}, &d.beta);
 }

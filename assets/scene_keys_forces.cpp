@@ -13,8 +13,9 @@ void walk(KeyVisitor& v, Load& l) {
   v.key({"box", kPhysics, "m", kPlace, "what lies inside, after the body's transform, in world coordinates"}, &l.box);
   v.key({"force", kPhysics, "N", between(-1e12, 1e12), "in all, shared out over the vertices inside by their mass"},
         &l.force);
-  v.key({"traction", kPhysics, "Pa", between(-1e12, 1e12), "per rest area of the surface triangles that are all inside"},
-        &l.traction);
+  v.key(
+      {"traction", kPhysics, "Pa", between(-1e12, 1e12), "per rest area of the surface triangles that are all inside"},
+      &l.traction);
   v.key({"from", kPhysics, "s", at_least(0, 1e6), "time at which it begins"}, &l.from);
   v.key({"until", kPhysics, "s", at_least(0, 1e6), "time at which it ends; left out, never"}, &l.until);
   v.key({"ramp", kPhysics, "s", at_least(0, 1e6), "time in which it rises, in a straight line"}, &l.ramp);
@@ -27,8 +28,9 @@ void walk(KeyVisitor& v, Attach& a) {
   v.key({"box", kPhysics, "m", kPlace, "vertices of the first inside, after its transform, in world coordinates"},
         &a.box);
   v.key({"near", kPhysics, "m", kLength, "vertices of the first that are nearer than this to the second"}, &a.near);
-  v.key({"stiffness", kPhysics, "N/m", kStiffness, "of each tie; left out, ten times that of the softer body around it"},
-        &a.stiffness);
+  v.key(
+      {"stiffness", kPhysics, "N/m", kStiffness, "of each tie; left out, ten times that of the softer body around it"},
+      &a.stiffness);
   v.key({"damping", kPhysics, "N s/m", at_least(0, 1e9), "of each tie"}, &a.damping);
   v.key({"snap", kPhysics, "", {}, "draw the two together; otherwise a gap between them stays"}, &a.snap);
   if (v.reading()) check(v, a);

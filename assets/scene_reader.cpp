@@ -24,7 +24,8 @@ class Reader : public KeyVisitor {
     walk_scene(*this, scene_);
     leave();
     if (scene_.soft.empty() && scene_.cloth.empty() && scene_.springs.empty() && !misread_list_)
-      problem("", "there is nothing to simulate; add a [[soft]], [[cloth]] or [[springs]], such as: [[soft]] block = {}");
+      problem("",
+              "there is nothing to simulate; add a [[soft]], [[cloth]] or [[springs]], such as: [[soft]] block = {}");
   }
 
   void key(const Key& key, const ValueRef& value) override {

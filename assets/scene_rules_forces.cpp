@@ -32,7 +32,8 @@ void check_edges(KeyVisitor& v, const SpringBody& body) {
     }
     const auto [it, added] = first.emplace(std::minmax(i, j), e);
     if (!added)
-      v.problem(place, fmt::format("joins the same points as edge {}; add their stiffnesses up in one", it->second + 1));
+      v.problem(place,
+                fmt::format("joins the same points as edge {}; add their stiffnesses up in one", it->second + 1));
     const auto& rest = body.rest_length;
     const bool no_length = !rest.empty() && (rest.size() == 1 ? rest[0] : e < rest.size() ? rest[e] : 0) == 0;
     if (body.points[static_cast<size_t>(i)] == body.points[static_cast<size_t>(j)] && !no_length)
@@ -60,7 +61,7 @@ void check(KeyVisitor& v, const SpringBody& body) {
     v.problem("points", fmt::format("{} points, at most {:.0f}", body.points.size(), kMostPoints));
   const size_t n = chain && body.chain ? static_cast<size_t>(body.chain->links) + 1 : body.points.size();
   const size_t m = chain && body.chain ? n - 1 : body.edges.size();
-  check_count(v, "mass", body.mass.size(), n, "point");
+  check_count(v, "mass", body.masses.size(), n, "point");
   check_count(v, "radius", body.radius.size(), n, "point");
   check_count(v, "stiffness", body.stiffness.size(), m, "edge");
   check_count(v, "rest_length", body.rest_length.size(), m, "edge");

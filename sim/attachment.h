@@ -23,10 +23,11 @@ struct Tie {
 
 /// Elastic energy of ties. With r = x_i - sum w_j x_j:
 ///   length 0: E = k/2 |r|^2, whose Hessian is constant;
-///   else:     E = k/2 (|r| - L)^2 + k/3 sum_j (|x_i - x_j| - L_j)^2: a rod across the gap, and rods to the corners of the
+///   else:     E = k/2 (|r| - L)^2 + k/3 sum_j (|x_i - x_j| - L_j)^2: a rod across the gap, and rods to the corners of
+///   the
 ///             triangle, since the first alone would let the surfaces slide past each other.
-/// An offset in world coordinates would do without the rods, but would not turn with the bodies. Both energies are functions of
-/// distances alone: forces sum to zero, and so do torques. One term for each kind of tie that there is.
+/// An offset in world coordinates would do without the rods, but would not turn with the bodies. Both energies are
+/// functions of distances alone: forces sum to zero, and so do torques. One term for each kind of tie that there is.
 std::vector<std::unique_ptr<EnergyTerm>> make_ties(const std::vector<Tie>& ties);
 
 /// D = c/2 |dr/dt|^2 for ties of length 0, c/2 (r/|r| . dr/dt)^2 (direction at the predicted positions) for others;
@@ -48,11 +49,11 @@ struct TiedBody {
   std::vector<Triangle> surface;
 };
 
-/// Binds `vertices` of `a` (from 0) that lie within `near` of `b` to the nearest points of b. Ties shorter than 1e-3 of the
-/// longest side of the triangle that they end on are taken for touching: length 0.
-/// `scale`: stiffness_scale of the state without ties, for the default: ten times that of the softer end, so that a
-/// tie gives a tenth of what that body gives around it, and no more is asked of the solver than that. An end without
-/// stiffness (a free point) does not count; if neither has any, throws std::invalid_argument.
+/// Binds `vertices` of `a` (from 0) that lie within `near` of `b` to the nearest points of b. Ties shorter than 1e-3 of
+/// the longest side of the triangle that they end on are taken for touching: length 0. `scale`: stiffness_scale of the
+/// state without ties, for the default: ten times that of the softer end, so that a tie gives a tenth of what that body
+/// gives around it, and no more is asked of the solver than that. An end without stiffness (a free point) does not
+/// count; if neither has any, throws std::invalid_argument.
 std::vector<Tie> find_ties(const TiedBody& a, std::span<const int> vertices, const TiedBody& b,
                            const AttachSettings& settings, const Eigen::VectorXd& scale);
 

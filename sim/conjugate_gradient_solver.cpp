@@ -139,7 +139,7 @@ LinearReport ConjugateGradientSolver::solve(const Eigen::VectorXd& b, const Line
 void ConjugateGradientSolver::correct_rigid_modes(const Eigen::VectorXd& b, const LinearTargets& targets,
                                                   Eigen::VectorXd& x) {
   const Eigen::VectorXd& y = *targets.positions;
-  std::array<Eigen::VectorXd, 6> Z, AZ;  // the modes of all bodies at once: they meet in no block of A
+  std::array<Eigen::VectorXd, 6> Z, AZ;  // the modes of all bodies in one vector each
   for (auto& mode : Z) mode.setZero(b.size());
   for (const BodyRange& body : targets.bodies) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -156,11 +156,23 @@ void ConjugateGradientSolver::correct_rigid_modes(const Eigen::VectorXd& b, cons
     for (auto& mode : Z)
       for (size_t i = 0; i < targets.held->size(); ++i)
         if ((*targets.held)[i]) mode(static_cast<Eigen::Index>(i)) = 0;
-  for (size_t m = 0; m < 6; ++m) A_->multiply(Z[m], AZ[m]);
-  A_->multiply(x, Ap_);
-  r_ = b - Ap_;
+  for (auto& product : AZ) product.resize(b.size());
   for (const BodyRange& body : targets.bodies) {
     const int first = 3 * body.first, count = 3 * body.count;
+    // Bodies may be tied to each other: the modes of this one alone, and the residual that the others have left.
+    parallel_for(body.count, Work::kRow, [&](int k) {
+      const int i = body.first + k;
+      Eigen::Matrix<double, 3, 6> own = Eigen::Matrix<double, 3, 6>::Zero();
+      Eigen::Vector3d r = b.segment<3>(3 * i);
+      for (int at = A_->row_start[static_cast<size_t>(i)]; at < A_->row_start[static_cast<size_t>(i) + 1]; ++at) {
+        const int j = A_->column[static_cast<size_t>(at)];
+        r -= A_->block(at) * x.segment<3>(3 * j);
+        if (j < body.first || j >= body.first + body.count) continue;
+        for (size_t m = 0; m < 6; ++m) own.col(static_cast<Eigen::Index>(m)) += A_->block(at) * Z[m].segment<3>(3 * j);
+      }
+      r_.segment<3>(3 * i) = r;
+      for (size_t m = 0; m < 6; ++m) AZ[m].segment<3>(3 * i) = own.col(static_cast<Eigen::Index>(m));
+    });
     Eigen::Matrix<double, 6, 6> gram;
     Eigen::Matrix<double, 6, 1> right;
     for (size_t m = 0; m < 6; ++m) {

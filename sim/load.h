@@ -39,8 +39,8 @@ NodalForces share_force(const Vec3& total, std::span<const int> vertices, const 
 NodalForces share_traction(const Vec3& traction, std::span<const Triangle> triangles, const Eigen::VectorXd& x);
 
 /// E = -s f . x, s the mean of `times` over a step's length around the time at which forces are taken: the means of
-/// successive steps tile the time, so the impulse of a load that begins or ends within a step is exact; elsewhere the mean is
-/// its middle to second order.
+/// successive steps tile the time, so the impulse of a load that begins or ends within a step is exact; elsewhere the
+/// mean is its middle to second order.
 std::unique_ptr<EnergyTerm> make_load(NodalForces forces, const LoadTimes& times);
 
 }  // namespace softreel::sim

@@ -64,8 +64,8 @@ struct WindKernel {
   void gradient(int e, const Corners<3>& V, Corners<3>& out) const {
     const Lagged& l = lagged[static_cast<size_t>(e)];
     const Relative r = relative(e, V);
-    const Vec3 force = l.area / 2 *
-                       (pressure * std::abs(r.normal) * r.normal * l.normal + friction * r.along.norm() * r.along);
+    const Vec3 force =
+        l.area / 2 * (pressure * std::abs(r.normal) * r.normal * l.normal + friction * r.along.norm() * r.along);
     out.colwise() = -force / 3;
   }
 
@@ -76,8 +76,7 @@ struct WindKernel {
     Eigen::Matrix3d K = pressure * std::abs(r.normal) * nn;
     const double speed = r.along.norm();
     if (speed > 0)
-      K += friction / 2 *
-           (speed * (Eigen::Matrix3d::Identity() - nn) + r.along * r.along.transpose() / speed);
+      K += friction / 2 * (speed * (Eigen::Matrix3d::Identity() - nn) + r.along * r.along.transpose() / speed);
     K *= l.area / 9;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) out.block<3, 3>(3 * a, 3 * b) = K;
@@ -93,8 +92,7 @@ struct WindDragKernel {
 
   void begin_step(const StepContext& context, std::span<const int>) {
     parallel_for(static_cast<int>(air.size()), Work::kRow, [&](int i) {
-      air[static_cast<size_t>(i)] =
-          field.velocity(context.t_forces, Vec3(context.x_predicted.segment<3>(3 * i)));
+      air[static_cast<size_t>(i)] = field.velocity(context.t_forces, Vec3(context.x_predicted.segment<3>(3 * i)));
     });
   }
   double energy(int e, const Corners<1>& v) const {

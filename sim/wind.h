@@ -37,7 +37,7 @@ class WindField {
   double amplitude_;  // [m/s]
   double slowness_;   // 1 / mean speed [s/m]; 0 without gusts
   Eigen::Matrix3d axes_;
-  std::array<double, kSines> frequencies_;                // [rad/s]
+  std::array<double, kSines> frequencies_;              // [rad/s]
   std::array<std::array<double, kSines>, 3> phases_{};  // per axis [rad]
 };
 
@@ -48,8 +48,8 @@ struct WindSurface {
   bool closed = false;
 };
 
-/// Per triangle with area A, normal n and relative wind u = w - v (v: mean of its corners), s = u . n and u_t = u - s n:
-/// force A rho/2 (c |s| s n + c_f |u_t| u_t), from the dissipation potential D(v) = A rho/6 (c |s|^3 + c_f |u_t|^3),
+/// Per triangle with area A, normal n and relative wind u = w - v (v: mean of its corners), s = u . n and u_t = u - s
+/// n: force A rho/2 (c |s| s n + c_f |u_t| u_t), from the dissipation potential D(v) = A rho/6 (c |s|^3 + c_f |u_t|^3),
 /// which is convex. A, n (at the predicted positions) and w (when forces are taken) are lagged.
 /// `power` is what the air takes out of the motion; negative while the wind drives.
 std::unique_ptr<EnergyTerm> make_wind(const Wind& wind, const std::vector<WindSurface>& surfaces);

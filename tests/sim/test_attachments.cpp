@@ -104,8 +104,7 @@ TEST_CASE("ties keep linear and angular momentum, touching or across a gap, what
     const Eigen::VectorXd& x = s.state().x;
     for (const Tie& tie : pair.ties) {
       Vec3 p = x.segment<3>(3 * tie.vertex);
-      for (size_t j = 0; j < 3; ++j)
-        p -= tie.weights(static_cast<Eigen::Index>(j)) * x.segment<3>(3 * tie.corners[j]);
+      for (size_t j = 0; j < 3; ++j) p -= tie.weights(static_cast<Eigen::Index>(j)) * x.segment<3>(3 * tie.corners[j]);
       CHECK(std::abs(p.norm() - tie.length) < 0.01);
     }
   }
@@ -176,7 +175,8 @@ TEST_CASE("two free points tied without a stiffness are refused") {
 TEST_CASE("neighbours of Young 1e4 and 1e8, and of mass ratio 1e6, hang on each other and converge") {
   const SolidMaterial soft{"stable-neo-hookean", 1e4, 0.3, 10}, stiff{"stable-neo-hookean", 1e8, 0.3, 10},
       heavy{"stable-neo-hookean", 1e8, 0.3, 1e4}, light{"stable-neo-hookean", 1e4, 0.3, 1e-2};
-  const std::pair<SolidMaterial, SolidMaterial> kPairs[] = {{stiff, soft}, {soft, stiff}, {heavy, light}, {light, heavy}};
+  const std::pair<SolidMaterial, SolidMaterial> kPairs[] = {
+      {stiff, soft}, {soft, stiff}, {heavy, light}, {light, heavy}};
   for (const char* linear : {"cholesky", "cg"})
     for (const auto& [below, above] : kPairs) {
       CAPTURE(linear);
