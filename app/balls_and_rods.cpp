@@ -42,8 +42,7 @@ std::vector<glm::vec3> BallsAndRods::positions(const Eigen::VectorXd& x, int fir
   result.reserve(rest_.size() * ball_.size() + 2 * edges_.size() * static_cast<size_t>(around_));
   const auto point = [&](int i) { return Vec3(x.segment<3>(3 * (first + i))); };
   for (size_t i = 0; i < rest_.size(); ++i)
-    for (const Vec3& corner : ball_)
-      result.push_back(to_glm(Vec3(point(static_cast<int>(i)) + radii_[i] * corner)));
+    for (const Vec3& corner : ball_) result.push_back(to_glm(Vec3(point(static_cast<int>(i)) + radii_[i] * corner)));
   for (const auto& [i, j] : edges_) {
     const Vec3 p = point(i), q = point(j);
     Vec3 along = rest_[static_cast<size_t>(j)] - rest_[static_cast<size_t>(i)];

@@ -10,9 +10,9 @@
 
 namespace softreel::app {
 
-/// A ball at each point, a rod along each edge. A rod's cross-section is its frame at rest, turned by the smallest rotation
-/// that takes the edge's direction at rest to that of now: the picture of a state depends on nothing but the state, and no
-/// rod twists.
+/// A ball at each point, a rod along each edge. A rod's cross-section is its frame at rest, turned by the smallest
+/// rotation that takes the edge's direction at rest to that of now: the picture of a state depends on nothing but the
+/// state, and no rod twists.
 class BallsAndRods {
  public:
   /// `rest`: the points, [m]; `radii`: one for each.

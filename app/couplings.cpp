@@ -67,9 +67,10 @@ std::vector<sim::Tie> ties_of(const assets::Scene& scene, const assets::Attach& 
     std::vector<sim::Tie> ties = sim::find_ties({a.range.first, a.rest, {}}, vertices,
                                                 {b.range.first, b.rest, b.surface()}, settings, stiffness);
     if (ties.empty())
-      refuse(scene, fmt::format("attachment '{}' ties nothing: no vertex of '{}' is within {} m of '{}'; '{}' {}, '{}' {}",
-                                attach.name, a.name, settings.near, b.name, a.name, reach_text(*a.rest), b.name,
-                                reach_text(*b.rest)));
+      refuse(scene,
+             fmt::format("attachment '{}' ties nothing: no vertex of '{}' is within {} m of '{}'; '{}' {}, '{}' {}",
+                         attach.name, a.name, settings.near, b.name, a.name, reach_text(*a.rest), b.name,
+                         reach_text(*b.rest)));
     return ties;
   } catch (const std::invalid_argument& e) {
     refuse(scene, fmt::format("attachment '{}': {}", attach.name, e.what()));

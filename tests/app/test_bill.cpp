@@ -82,6 +82,31 @@ TEST_CASE("Lights without shadow draw no shadow maps") {
   CHECK(has(stats(dark), "render_counters", "shadow_passes"));
 }
 
+TEST_CASE("Loads, ties, wind and points are needed where the scene has them, and nowhere else") {
+  const char* const kFeatures[] = {"loads", "attachments", "wind"};
+  const auto without = stats(test::hanging_cloth());
+  for (const char* feature : kFeatures) CHECK(left_out(without, feature));
+  const auto with = stats(test::hanging_cloth() + R"(
+[[springs]]
+name = "weights"
+points = [[-0.3, 0, 0.3], [0.3, 0, 0.3], [0, -0.4, 0.3]]
+edges = [[0, 2], [1, 2]]
+[[load]]
+body = "weights"
+box = [[-1, -1, -1], [1, 1, 1]]
+force = [0, -0.1, 0]
+[[attach]]
+bodies = ["weights", "sheet"]
+near = 0.01
+[wind]
+velocity = [0, 0, 2]
+)");
+  for (const char* feature : kFeatures) CHECK_FALSE(left_out(with, feature));
+  CHECK_FALSE(left_out(with, "springs"));
+  CHECK(with.at("vertices") == 49 + 3);
+  CHECK(with.at("triangles") > without.at("triangles"));  // balls and rods
+}
+
 TEST_CASE("check prints the same bill as the stats of a run") {
   test::TempFolder folder;
   const std::string scene = folder.write("scene.toml", test::small_scene()).string();

@@ -29,6 +29,13 @@ void change(const ValueRef& value) {
                  [](std::array<int, 2>* v) { (*v)[1] += 1; },
                  [](std::array<int, 3>* v) { (*v)[2] += 1; },
                  [](std::vector<int>* v) { v->push_back(7); },
+                 [](std::vector<double>* v) { v->push_back(7); },
+                 [](std::vector<Vec3>* v) { v->emplace_back(1, 2, 3); },
+                 [](std::vector<std::array<int, 2>>* v) {
+                   v->push_back({0, 1});
+                 },
+                 [](BodyName* v) { v->place += "x"; },
+                 [](std::array<BodyName, 2>* v) { (*v)[1].place += "x"; },
                  [](Color* v) { v->b += 0.01; },
                  [](std::optional<Color>* v) {
                    *v = Color{0.1, 0.2, 0.3};
@@ -94,6 +101,18 @@ grid = {}
 pins = [{ vertices = [0], motion = [{ t = 1 }] }]
 [[collider]]
 motion = [{ t = 1 }]
+[[springs]]
+chain = {}
+pins = [{ vertices = [0], motion = [{ t = 1 }] }]
+[[load]]
+body = "soft-1"
+box = [[0, 0, 0], [1, 2, 3]]
+force = [1, 0, 0]
+[[attach]]
+bodies = ["cloth-1", "soft-1"]
+near = 1
+[wind]
+gusts = {}
 [[light]]
 )";
 
@@ -148,6 +167,19 @@ TEST_CASE("two ways to write the same scene are the same scene") {
       "material = { poisson = 0.47, young = 2e6 }\n[time]\n");
   CHECK(canonical_physics(a) == canonical_physics(b));
   CHECK(canonical_picture(a) == canonical_picture(b));
+}
+
+TEST_CASE("a load on another body is another simulation, a body's new name is not, and names that change places are") {
+  const std::string bodies = "[[soft]]\nname = 'a'\nblock = {}\n[[soft]]\nname = 'b'\nblock = {}\n";
+  const auto load_on = [](const std::string& name) {
+    return "[[load]]\nbody = '" + name + "'\nbox = [[0, 0, 0], [1, 1, 1]]\nforce = [1, 0, 0]\n";
+  };
+  const std::string here = canonical_physics(parse(bodies + load_on("a")));
+  CHECK(here != canonical_physics(parse(bodies + load_on("b"))));
+  const std::vector<std::string> renamed = {"soft.1.name=c", "load.1.body=c"};
+  CHECK(here == canonical_physics(parse(bodies + load_on("a"), renamed)));
+  const std::vector<std::string> swapped = {"soft.2.name=c", "soft.1.name=b", "soft.2.name=a"};
+  CHECK(here != canonical_physics(parse(bodies + load_on("a"), swapped)));
 }
 
 TEST_CASE("numbers that differ in their last bit are written differently") {

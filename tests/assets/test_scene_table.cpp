@@ -71,7 +71,10 @@ class NumberKeys : public KeyVisitor {
         std::holds_alternative<int*>(value) || std::holds_alternative<ScaleRef>(value) ||
         std::holds_alternative<UnitRef>(value))
       add(0);
-    if (std::holds_alternative<std::vector<int>*>(value)) add(1);
+    if (std::holds_alternative<std::vector<double>*>(value)) add(0);
+    if (std::holds_alternative<std::vector<int>*>(value) || std::holds_alternative<std::vector<double>*>(value)) add(1);
+    if (std::holds_alternative<std::vector<std::array<int, 2>>*>(value)) add(2, true);
+    if (std::holds_alternative<std::vector<Vec3>*>(value)) add(3, true);
     if (std::holds_alternative<std::array<double, 2>*>(value) || std::holds_alternative<std::array<int, 2>*>(value))
       add(2);
     if (std::holds_alternative<Vec3*>(value) || std::holds_alternative<std::optional<Vec3>*>(value) ||
