@@ -29,10 +29,13 @@ void walk_motion(KeyVisitor& v, std::vector<MotionKey>& motion, const char* help
   if (v.reading()) check(v, motion);
 }
 
-void walk_body(KeyVisitor& v, Body& b) {
-  walk_transform(v, b.transform);
+void walk_mass(KeyVisitor& v, Body& b) {
   v.key({"mass", kPhysics, "", {}, "matrix of the mass: one mass per vertex, or that of the finite elements"},
         choice(b.mass));
+}
+
+void walk_body(KeyVisitor& v, Body& b) {
+  walk_transform(v, b.transform);
   v.key({"velocity", kPhysics, "m/s", kSpeed, "at t = 0"}, &b.velocity);
   v.key({"spin", kPhysics, "deg/s", kTurns, "at t = 0, about the world's axes through the centre of mass"}, &b.spin);
   v.list({"pins", "vertices that are held or driven"}, keys_of(b.pins));
@@ -126,6 +129,7 @@ void walk(KeyVisitor& v, SoftBody& b) {
   if (const SolidPreset* preset = find_solid_preset(b.material.preset); preset && v.reading())
     b.density = preset->density;
   v.key({"density", kPhysics, "kg/m^3", kDensity, "mass per volume"}, &b.density);
+  walk_mass(v, b);
   walk_body(v, b);
   if (v.reading()) check(v, b);
 }
@@ -148,6 +152,7 @@ void walk(KeyVisitor& v, Cloth& c) {
   if (const ClothPreset* preset = find_cloth_preset(c.material.preset); preset && v.reading())
     c.density = preset->density;
   v.key({"density", kPhysics, "kg/m^3", kDensity, "mass per volume; mass per area is density x thickness"}, &c.density);
+  walk_mass(v, c);
   walk_body(v, c);
   if (v.reading()) check(v, c);
 }
@@ -164,7 +169,7 @@ void walk(KeyVisitor& v, SpringBody& b) {
   v.key({"points", kPhysics, "m", kPlace, "where they are, in the body's coordinates"}, &b.points);
   v.key({"edges", kPhysics, "", between(0, kMostPoints), "springs between points, by number, from 0"}, &b.edges);
   v.section({"chain", "a row of points and edges, instead of points"}, keys_of(b.chain));
-  v.key({"mass", kPhysics, "kg", above(0, 1e12), "of each point, or one for each"}, &b.mass);
+  v.key({"mass", kPhysics, "kg", above(0, 1e12), "of each point, or one for each"}, &b.masses);
   v.key({"stiffness", kPhysics, "N/m", above(0, 1e12), "of each edge, or one for each"}, &b.stiffness);
   v.key({"rest_length", kPhysics, "m", at_least(0, 1e6), "of each edge, or one for each; left out, as the points lie"},
         &b.rest_length);

@@ -194,7 +194,7 @@ Tie tie_to_surface(const Vec3& p, const TiedBody& b, const NearestPoint& nearest
   return tie;
 }
 
-Tie tie_to_point(const Vec3& p, const TiedBody& b, double& distance, bool snap) {
+Tie tie_to_point(const Vec3& p, const TiedBody& b, double extent, double& distance, bool snap) {
   Tie tie;
   distance = std::numeric_limits<double>::infinity();
   for (size_t j = 0; j < b.rest->size(); ++j) {
@@ -203,7 +203,8 @@ Tie tie_to_point(const Vec3& p, const TiedBody& b, double& distance, bool snap) 
     distance = d;
     tie.corners.fill(b.first + static_cast<int>(j));
   }
-  if (!snap) tie.length = distance;
+  constexpr double kTouching = 1e-6;
+  if (!snap && distance > kTouching * extent) tie.length = distance;
   return tie;
 }
 
@@ -246,13 +247,15 @@ std::vector<std::unique_ptr<EnergyTerm>> make_tie_damping(const std::vector<Tie>
 std::vector<Tie> find_ties(const TiedBody& a, std::span<const int> vertices, const TiedBody& b,
                            const AttachSettings& settings, const Eigen::VectorXd& scale) {
   const NearestPointTree tree(*b.rest, b.surface);
+  double extent = 0;
+  for (const Vec3& q : *b.rest) extent = std::max(extent, (q - b.rest->front()).norm());
   std::vector<Tie> ties;
   for (int v : vertices) {
     const Vec3& p = (*a.rest)[static_cast<size_t>(v)];
     double distance = 0;
     Tie tie;
     if (b.surface.empty()) {
-      tie = tie_to_point(p, b, distance, settings.snap);
+      tie = tie_to_point(p, b, extent, distance, settings.snap);
     } else {
       const NearestPoint nearest = tree.find(p);
       distance = nearest.distance;

@@ -50,10 +50,10 @@ struct TiedBody {
 };
 
 /// Binds `vertices` of `a` (from 0) that lie within `near` of `b` to the nearest points of b. Ties shorter than 1e-3 of
-/// the longest side of the triangle that they end on are taken for touching: length 0. `scale`: stiffness_scale of the
-/// state without ties, for the default: ten times that of the softer end, so that a tie gives a tenth of what that body
-/// gives around it, and no more is asked of the solver than that. An end without stiffness (a free point) does not
-/// count; if neither has any, throws std::invalid_argument.
+/// the longest side of the triangle that they end on are taken for touching: length 0 (bound to a point: 1e-6 of the
+/// extent of b). `scale`: stiffness_scale of the state without ties, for the default: ten times that of the softer end,
+/// so that a tie gives a tenth of what that body gives around it, and no more is asked of the solver than that. An end
+/// without stiffness (a free point) does not count; if neither has any, throws std::invalid_argument.
 std::vector<Tie> find_ties(const TiedBody& a, std::span<const int> vertices, const TiedBody& b,
                            const AttachSettings& settings, const Eigen::VectorXd& scale);
 

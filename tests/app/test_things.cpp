@@ -46,7 +46,8 @@ TEST_CASE("A pendulum alone is simulated and drawn, and exported as it is drawn"
 TEST_CASE("A point that is joined to nothing is noted") {
   test::TempFolder folder;
   const std::string notes = rendered(
-      "[time]\nduration = 0.1\n[[springs]]\nname = \"dust\"\npoints = [[0, 0, 0], [1, 0, 0], [2, 1, 0]]\nedges = [[0, 1]]\n",
+      "[time]\nduration = 0.1\n[[springs]]\nname = \"dust\"\npoints = [[0, 0, 0], [1, 0, 0], [2, 1, 0]]\nedges = [[0, "
+      "1]]\n",
       folder);
   CHECK(test::contains(notes, "springs 'dust': 1 of 3 points is joined to nothing"));
 }

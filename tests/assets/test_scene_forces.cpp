@@ -52,7 +52,7 @@ gusts = { amplitude = 0.5, seed = 3 }
   CHECK(s.springs[0].points.size() == 3);
   CHECK(s.springs[0].points[2] == Vec3(2, 0.5, 0));
   CHECK(s.springs[0].edges[1] == std::array<int, 2>{1, 2});
-  CHECK(s.springs[0].mass == std::vector<double>{1, 2, 3.5});
+  CHECK(s.springs[0].masses == std::vector<double>{1, 2, 3.5});
   CHECK(s.springs[0].stiffness == std::vector<double>{500});
   CHECK(s.springs[0].rest_length == std::vector<double>{1, 1.25});
   CHECK(s.springs[1].name == "springs-2");
