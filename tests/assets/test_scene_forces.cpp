@@ -120,7 +120,7 @@ TEST_CASE("mistakes in loads, attachments and points are reported where they sta
       {points + "mass = [1, 2]\n", 3, 8, {"found 2 numbers, expected one, or 3: one for each point"}},
       {points + "mass = [1, 0, 1]\n", 3, 12, {"springs.1.mass: found 0", "above 0"}},
       {points + "mass = []\n", 3, 8, {"springs.1.mass: found"}},
-      {"[[springs]]\nchain = { from = [1, 2, 3], to = [1, 2, 3] }\n", 2, 35, {"no length"}},
+      {"[[springs]]\nchain = { from = [1, 2, 3], to = [1, 2, 3] }\n", 2, 34, {"no length"}},
       {kBlock + kLoad + "name = 'x'\nforce = [1, 0, 0]\n" + kLoad + "name = 'x'\nforce = [1, 0, 0]\n",
        12,
        8,
