@@ -157,7 +157,10 @@ std::string value_text(const ValueRef& value) {
                         [](std::array<int, 2>* v) { return array_text(*v); },
                         [](std::array<int, 3>* v) { return array_text(*v); },
                         [](std::vector<int>* v) { return array_text(*v); },
-                        [](std::vector<double>* v) { return v->empty() ? std::string() : array_text(*v); },
+                        [](std::vector<double>* v) {
+                          if (v->empty()) return std::string();
+                          return v->size() == 1 ? fmt::format("{}", v->front()) : array_text(*v);
+                        },
                         [](std::vector<Vec3>* v) { return list_text(*v); },
                         [](std::vector<std::array<int, 2>>* v) { return list_text(*v); },
                         [](BodyName* v) { return v->name.empty() ? std::string() : toml_string(v->name); },
