@@ -227,7 +227,11 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
 sim::SimulationSettings simulation_settings(const assets::Scene& scene) {
   sim::SimulationSettings s;
   s.integrator = scene.time.integrator;
-  s.linear_solver = scene.solver.linear;
+  s.linear_solver.method = scene.solver.linear;
+  s.linear_solver.preconditioner = scene.solver.preconditioner;
+  s.linear_solver.omega = scene.solver.omega;
+  s.linear_solver.restart = scene.solver.restart;
+  s.linear_solver.max_iterations = scene.solver.linear_max_iterations;
   s.minimizer.method = scene.solver.method;
   s.minimizer.hessian = scene.solver.hessian;
   s.minimizer.line_search = scene.solver.line_search;

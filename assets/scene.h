@@ -42,14 +42,18 @@ struct Time {
 };
 
 struct Solver {
-  std::string method = "newton";             ///< of sim::minimizers()
-  std::string hessian = "auto";              ///< of sim::hessian_modifications()
-  std::string line_search = "backtracking";  ///< of sim::line_searches()
-  std::string stop = "residual";             ///< of sim::stopping_tests()
-  std::string linear = "auto";               ///< of sim::linear_solvers()
-  double tolerance = 1e-3;                   ///< of a step, relative to the motion it has to produce [-]
-  double linear_tolerance = 1e-4;            ///< of a linear solve by iteration, relative residual [-]
-  int max_iterations = 50;                   ///< of the minimizer, per step
+  std::string method = "newton";                ///< of sim::minimizers()
+  std::string hessian = "auto";                 ///< of sim::hessian_modifications()
+  std::string line_search = "backtracking";     ///< of sim::line_searches()
+  std::string stop = "residual";                ///< of sim::stopping_tests()
+  std::string linear = "auto";                  ///< of sim::linear_solvers()
+  double tolerance = 1e-3;                      ///< of a step, relative to the motion it has to produce [-]
+  std::string preconditioner = "block-jacobi";  ///< of sim::preconditioners(); for cg, gmres, steepest-descent
+  double omega = 1.5;                           ///< relaxation of sor [-], in (0, 2)
+  int restart = 50;                             ///< of gmres: vectors kept before it begins anew
+  int linear_max_iterations = 0;                ///< of a linear solve by iteration; 0: 10,000, with cg 10 per unknown
+  double linear_tolerance = 1e-4;               ///< of a linear solve by iteration, relative residual [-]
+  int max_iterations = 50;                      ///< of the minimizer, per step
 };
 
 /// Placement of a body or collider: scale, then rotate (Euler angles, about x first, then y, then z), both about

@@ -29,7 +29,15 @@ void walk(KeyVisitor& v, Solver& s) {
   v.key({"linear", kPhysics, "", {}, "linear solver; auto chooses by size and stiffness"},
         MethodRef{&s.linear, sim::linear_solvers()});
   v.key({"tolerance", kPhysics, "", kTolerance, "of a step, relative to the motion it has to produce"}, &s.tolerance);
-  v.key({"linear_tolerance", kPhysics, "", kTolerance, "relative residual at which cg stops"}, &s.linear_tolerance);
+  v.key({"preconditioner", kPhysics, "", {}, "of cg, gmres and steepest-descent; none: the plain method"},
+        MethodRef{&s.preconditioner, sim::preconditioners()});
+  v.key({"omega", kPhysics, "", kRelaxation, "relaxation of sor; 1 is gauss-seidel"}, &s.omega);
+  v.key({"restart", kPhysics, "", between(1, 10000), "vectors that gmres keeps before it begins anew"}, &s.restart);
+  v.key({"linear_tolerance", kPhysics, "", kTolerance, "relative residual at which an iterative solver stops"},
+        &s.linear_tolerance);
+  v.key({"linear_max_iterations", kPhysics, "", between(0, 1000000000),
+         "after which it gives up; 0: 10000, with cg 10 for every unknown"},
+        &s.linear_max_iterations);
   v.key({"max_iterations", kPhysics, "", between(1, 100000), "of the minimizer, per step"}, &s.max_iterations);
   if (v.reading()) check(v, s);
 }

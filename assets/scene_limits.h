@@ -33,6 +33,7 @@ constexpr Range kFps = between(0.01, 1e5);
 constexpr Range kDuration = above(0, 1e6);  // [s]
 constexpr Range kSubsteps = between(1, 1e6);
 constexpr Range kTolerance = Range{1e-12, 1, false, true, "less is lost in rounding"};
+constexpr Range kRelaxation = Range{0, 2, true, true, "outside sor converges for no matrix"};
 constexpr Range kCells = between(1, 4096);
 constexpr Range kYoung = above(0, 1e13, "diamond has 1e12");  // [Pa]
 constexpr Range kPoisson = Range{0, 0.5, false, true, "", "0.5 would be incompressible"};

@@ -137,6 +137,17 @@ void check(KeyVisitor& v, const Time& time) {
                                       time.substeps, frames * time.substeps, kMostSteps));
 }
 
+void check(KeyVisitor& v, const Solver& solver) {
+  const std::string& linear = solver.linear;
+  const bool direct = linear == "cholesky" || linear == "ldlt" || linear == "lu";
+  only_for(v, linear == "cg" || linear == "gmres" || linear == "steepest-descent", {"preconditioner"},
+           "is for linear = \"cg\", \"gmres\" or \"steepest-descent\"");
+  only_for(v, linear == "sor", {"omega"}, "is for linear = \"sor\"");
+  only_for(v, linear == "gmres", {"restart"}, "is for linear = \"gmres\"");
+  only_for(v, !direct && linear != "auto", {"linear_max_iterations"},
+           "is for a linear solver that iterates; auto counts for itself what pays");
+}
+
 void check(KeyVisitor& v, const Block& block) {
   const auto& n = block.cells;
   const double tets = double(kTetsPerCell) * n[0] * n[1] * n[2];

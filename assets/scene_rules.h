@@ -9,6 +9,7 @@ void check(KeyVisitor& v, Scene& scene);
 void check_references(KeyVisitor& v, Scene& scene);
 void check(KeyVisitor& v, const Solver& solver);
 void check(KeyVisitor& v, const Time& time);
+void check(KeyVisitor& v, const Solver& solver);
 void check(KeyVisitor& v, const Block& block);
 void check(KeyVisitor& v, const Grid& grid);
 void check(KeyVisitor& v, const Pin& pin);

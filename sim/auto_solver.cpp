@@ -1,7 +1,7 @@
+#include "sim/auto_solver.h"
+
 #include <algorithm>
 #include <stdexcept>
-
-#include "sim/linear_solver.h"
 
 namespace softreel::sim {
 namespace {
@@ -70,6 +70,8 @@ LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& ta
   report.iterations = spent;
   return report;
 }
+
+std::size_t AutoSolver::bytes() const { return cg_.bytes() + (cholesky_.analysed() ? cholesky_.bytes() : 0); }
 
 std::vector<double> AutoSolver::memory() const {
   return {direct_ ? 1.0 : 0.0, static_cast<double>(since_choice_), cholesky_.analysed() ? 1.0 : 0.0};

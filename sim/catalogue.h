@@ -1,6 +1,7 @@
 #pragma once
 // The methods that a scene can choose by name. Each table lives beside what it makes: solid.cpp, membrane.cpp,
-// integrators.cpp, minimizer.cpp, newton.cpp, line_search.cpp, convergence_test.cpp, linear_solver.cpp.
+// integrators.cpp, minimizer.cpp, newton.cpp, line_search.cpp, convergence_test.cpp, linear_solver.cpp,
+// preconditioner.cpp.
 #include <span>
 #include <string_view>
 
@@ -33,5 +34,6 @@ Catalogue hessian_modifications();
 Catalogue line_searches();
 Catalogue stopping_tests();
 Catalogue linear_solvers();
+Catalogue preconditioners();
 
 }  // namespace softreel::sim

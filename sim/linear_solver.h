@@ -1,6 +1,7 @@
 #pragma once
 // Linear systems A x = b with A symmetric positive definite: analyse / factorize / solve.
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -30,6 +31,7 @@ struct LinearReport {
   bool indefinite = false;  ///< not ok because A is not positive definite
   long iterations = 0;      ///< 0 for a direct solver
   std::string_view chosen;  ///< the method that gave the answer
+  double rate = 0;          ///< factor of the residual per iteration at the end, as far as the method measures it
 };
 
 class LinearSolver {
@@ -42,75 +44,29 @@ class LinearSolver {
   /// x is written, not read.
   virtual LinearReport solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) = 0;
 
+  /// Memory that the solver took at its peak, without A itself [bytes].
+  virtual std::size_t bytes() const = 0;
+
   /// What later choices depend on; saved with a simulation, so that one that is resumed makes the same choices.
   virtual std::vector<double> memory() const { return {}; }
   virtual void restore(std::span<const double>) {}
 };
 
-/// Supernodal sparse Cholesky of CHOLMOD (Chen, Davis et al. 2008) after a nested-dissection order of the blocks.
-class CholeskySolver final : public LinearSolver {
- public:
-  CholeskySolver();
-  ~CholeskySolver() override;
-  void analyse(const BlockMatrix& A) override;
-  void factorize(const BlockMatrix& A) override;
-  LinearReport solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) override;
+/// Which solver, and how; each reads what concerns it. A name alone stands for that method with the defaults.
+struct LinearSettings {
+  std::string method = "auto";                  ///< of linear_solvers()
+  std::string preconditioner = "block-jacobi";  ///< of preconditioners(); for cg, gmres and steepest-descent
+  double omega = 1.5;                           ///< relaxation of sor [-], in (0, 2)
+  int restart = 50;                             ///< of gmres: vectors kept before it begins anew, >= 1
+  long max_iterations = 0;                      ///< 0: 10,000; for cg 10 times the number of unknowns
 
-  /// Floating-point operations of one factorization, nonzeros of the factor; counted by analyse.
-  double factor_flops() const;
-  double factor_nonzeros() const;
-  bool analysed() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  LinearSettings() = default;
+  LinearSettings(std::string_view name) : method(name) {}
+  LinearSettings(const std::string& name) : method(name) {}
+  LinearSettings(const char* name) : method(name) {}
 };
 
-/// Conjugate gradients with a 3x3 block-Jacobi preconditioner.
-///
-/// The residual of a stiff body is all strain: stopped at a thousandth of it, the rigid motion, whose forces are small,
-/// could still be wrong altogether. So the solve ends with a projection onto the six rigid modes of every body (as far
-/// as `positions` are given): their part of the error is gone, momentum is kept as a direct solver keeps it.
-class ConjugateGradientSolver final : public LinearSolver {
- public:
-  void analyse(const BlockMatrix&) override {}
-  void factorize(const BlockMatrix& A) override;
-  LinearReport solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) override;
-
-  /// Gives up after so many iterations; 0: after 10 times the number of unknowns (at least 1000).
-  void set_max_iterations(long n) { max_iterations_ = n; }
-
- private:
-  void correct_rigid_modes(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x);
-
-  const BlockMatrix* A_ = nullptr;
-  std::vector<double> inverse_diagonal_;  // 9 doubles per block
-  long max_iterations_ = 0;
-  Eigen::VectorXd r_, z_, p_, Ap_;
-};
-
-/// Sparse Cholesky or conjugate gradients, whichever takes less counted work: never by the clock, so the choice is the
-/// same in every run.
-class AutoSolver final : public LinearSolver {
- public:
-  void analyse(const BlockMatrix& A) override;
-  void factorize(const BlockMatrix& A) override;
-  LinearReport solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) override;
-  std::vector<double> memory() const override;
-  void restore(std::span<const double> saved) override;
-
- private:
-  double cholesky_work();
-  double iteration_work() const;
-
-  const BlockMatrix* A_ = nullptr;
-  CholeskySolver cholesky_;
-  ConjugateGradientSolver cg_;
-  bool direct_ = true;     // the current choice
-  long since_choice_ = 0;  // solves since it was last put to the test
-};
-
-/// Throws std::invalid_argument for an unknown name.
-std::unique_ptr<LinearSolver> make_linear_solver(std::string_view name);
+/// Throws std::invalid_argument for an unknown name or a number out of range.
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSettings& settings);
 
 }  // namespace softreel::sim

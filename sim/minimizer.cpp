@@ -13,7 +13,7 @@ namespace {
 struct Problem {
   const Model& model;
   IncrementalPotential& phi;
-  const std::string& linear_solver;
+  const LinearSettings& linear_solver;
   const MinimizerSettings& settings;
 };
 
@@ -43,7 +43,7 @@ constexpr std::array kMinimizers = {
 Catalogue minimizers() { return catalogue_of<kMinimizers>(); }
 
 std::unique_ptr<Minimizer> make_minimizer(const Model& model, IncrementalPotential& phi,
-                                          const std::string& linear_solver, const MinimizerSettings& settings) {
+                                          const LinearSettings& linear_solver, const MinimizerSettings& settings) {
   if (settings.method != "newton" && settings.stop == "decrement")
     throw std::invalid_argument("the Newton decrement stops Newton's method only; " + settings.method +
                                 " can stop by residual or step");

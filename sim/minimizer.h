@@ -36,6 +36,6 @@ class Minimizer {
 /// `model` and `phi` must outlive the minimizer. Throws std::invalid_argument for unknown names and for settings that
 /// do not go together.
 std::unique_ptr<Minimizer> make_minimizer(const Model& model, IncrementalPotential& phi,
-                                          const std::string& linear_solver, const MinimizerSettings& settings);
+                                          const LinearSettings& linear_solver, const MinimizerSettings& settings);
 
 }  // namespace softreel::sim

@@ -18,7 +18,7 @@ namespace softreel::sim {
 
 struct SimulationSettings {
   std::string integrator = "implicit-euler";  ///< of `integrators()`
-  std::string linear_solver = "auto";         ///< of `linear_solvers()`
+  LinearSettings linear_solver;
   MinimizerSettings minimizer;
   int max_halvings = 6;  ///< a step that does not converge is retried in halves, so many times over
   double load_time = 0;  ///< of a static analysis: when gravity and loads have grown to their full size [s]

@@ -34,7 +34,7 @@ constexpr std::array kModifications = {
 
 Catalogue hessian_modifications() { return catalogue_of<kModifications>(); }
 
-Newton::Newton(const Model& model, IncrementalPotential& phi, const std::string& linear_solver,
+Newton::Newton(const Model& model, IncrementalPotential& phi, const LinearSettings& linear_solver,
                const MinimizerSettings& settings)
     : model_(model),
       phi_(phi),

@@ -27,7 +27,7 @@ class Newton final : public Minimizer {
                                        "1 Hessian and 1 linear solve an iteration",
                                        "Nocedal, Wright 2006, section 3.3"};
 
-  Newton(const Model& model, IncrementalPotential& phi, const std::string& linear_solver,
+  Newton(const Model& model, IncrementalPotential& phi, const LinearSettings& linear_solver,
          const MinimizerSettings& settings);
 
   void minimize(Eigen::VectorXd& y, StepReport& report) override;

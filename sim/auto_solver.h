@@ -1,0 +1,29 @@
+#pragma once
+#include "sim/cholesky_solver.h"
+#include "sim/conjugate_gradient_solver.h"
+
+namespace softreel::sim {
+
+/// Sparse Cholesky or conjugate gradients, whichever takes less counted work: never by the clock, so the choice is the
+/// same in every run.
+class AutoSolver final : public LinearSolver {
+ public:
+  void analyse(const BlockMatrix& A) override;
+  void factorize(const BlockMatrix& A) override;
+  LinearReport solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) override;
+  std::size_t bytes() const override;
+  std::vector<double> memory() const override;
+  void restore(std::span<const double> saved) override;
+
+ private:
+  double cholesky_work();
+  double iteration_work() const;
+
+  const BlockMatrix* A_ = nullptr;
+  CholeskySolver cholesky_;
+  ConjugateGradientSolver cg_;
+  bool direct_ = true;     // the current choice
+  long since_choice_ = 0;  // solves since it was last put to the test
+};
+
+}  // namespace softreel::sim
