@@ -114,10 +114,19 @@ void check_consistent_mass(KeyVisitor& v, const Scene& scene) {
 
 void check(KeyVisitor& v, const Solver& s) {
   const bool newton = s.method == "newton";
-  only_for(v, newton, {"hessian", "linear", "linear_tolerance"}, "is for method = \"newton\"");
+  only_for(v, newton,
+           {"hessian", "linear", "linear_tolerance", "preconditioner", "omega", "restart", "linear_max_iterations"},
+           "is for method = \"newton\"");
   only_for(v, s.method != "fixed-point", {"line_search"}, "is for method = \"newton\" or \"gradient-descent\"");
   if (!newton && s.stop == "decrement")
     v.problem("stop", "decrement is Newton's; with this method expected \"residual\" or \"step\"");
+  const bool direct = s.linear == "cholesky" || s.linear == "ldlt" || s.linear == "lu";
+  only_for(v, s.linear == "cg" || s.linear == "gmres" || s.linear == "steepest-descent", {"preconditioner"},
+           "is for linear = \"cg\", \"gmres\" or \"steepest-descent\"");
+  only_for(v, s.linear == "sor", {"omega"}, "is for linear = \"sor\"");
+  only_for(v, s.linear == "gmres", {"restart"}, "is for linear = \"gmres\"");
+  only_for(v, !direct && s.linear != "auto", {"linear_max_iterations"},
+           "is for a linear solver that iterates; auto counts for itself what pays");
 }
 
 void check(KeyVisitor& v, Scene& scene) {
@@ -135,17 +144,6 @@ void check(KeyVisitor& v, const Time& time) {
   else if (frames * time.substeps > kMostSteps)
     v.problem("substeps", fmt::format("{:.0f} frames of {} substeps are {:.0f} steps, at most {:.0f}", frames,
                                       time.substeps, frames * time.substeps, kMostSteps));
-}
-
-void check(KeyVisitor& v, const Solver& solver) {
-  const std::string& linear = solver.linear;
-  const bool direct = linear == "cholesky" || linear == "ldlt" || linear == "lu";
-  only_for(v, linear == "cg" || linear == "gmres" || linear == "steepest-descent", {"preconditioner"},
-           "is for linear = \"cg\", \"gmres\" or \"steepest-descent\"");
-  only_for(v, linear == "sor", {"omega"}, "is for linear = \"sor\"");
-  only_for(v, linear == "gmres", {"restart"}, "is for linear = \"gmres\"");
-  only_for(v, !direct && linear != "auto", {"linear_max_iterations"},
-           "is for a linear solver that iterates; auto counts for itself what pays");
 }
 
 void check(KeyVisitor& v, const Block& block) {

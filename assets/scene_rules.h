@@ -7,7 +7,6 @@ namespace softreel::assets {
 /// Finds the bodies that loads and attachments speak of, too.
 void check(KeyVisitor& v, Scene& scene);
 void check_references(KeyVisitor& v, Scene& scene);
-void check(KeyVisitor& v, const Solver& solver);
 void check(KeyVisitor& v, const Time& time);
 void check(KeyVisitor& v, const Solver& solver);
 void check(KeyVisitor& v, const Block& block);

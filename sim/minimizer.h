@@ -8,6 +8,7 @@
 
 #include "sim/catalogue.h"
 #include "sim/incremental_potential.h"
+#include "sim/linear_solver.h"
 
 namespace softreel::sim {
 
