@@ -15,6 +15,7 @@ std::span<const MethodGroup> method_groups() {
       MethodGroup{"solver.stop", "stopping tests", sim::stopping_tests()},
       MethodGroup{"solver.linear", "linear solvers", sim::linear_solvers()},
       MethodGroup{"solver.preconditioner", "preconditioners", sim::preconditioners()},
+      MethodGroup{"solver.preconditioner", "preconditioners", sim::preconditioners()},
       MethodGroup{"soft.material.model", "materials of solids", sim::solid_materials()},
       MethodGroup{"cloth.material.model", "materials of membranes", sim::membrane_materials()},
   };
