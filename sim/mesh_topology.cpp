@@ -38,6 +38,20 @@ std::vector<std::pair<int, int>> edges(const TriangleMesh& mesh) {
   return result;
 }
 
+std::vector<int> boundary_vertices(const TriangleMesh& mesh) {
+  std::vector<int> result;
+  const std::vector<HalfEdge> all = half_edges(mesh);
+  for (size_t i = 0; i < all.size();) {
+    size_t end = i + 1;
+    while (end < all.size() && same_edge(all[i], all[end])) ++end;
+    if (end == i + 1) result.insert(result.end(), {all[i].low, all[i].high});
+    i = end;
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
 std::vector<Hinge> hinges(const TriangleMesh& mesh) {
   std::vector<Hinge> result;
   const std::vector<HalfEdge> all = half_edges(mesh);
