@@ -29,6 +29,8 @@ enum class UpAxis { kX, kY, kZ };
 enum class ColliderShape { kPlane, kSphere, kBox, kCapsule };
 enum class LightKind { kArea, kSun };
 enum class GroundMode { kAuto, kOn, kOff };
+enum class FieldMass { kLumped, kConsistent };
+enum class ColorMap { kViridis, kInferno, kMagma, kCoolwarm };
 
 struct Time {
   double fps = 30;                            ///< frames per second of the clip [1/s]
@@ -258,6 +260,36 @@ struct Collider {
   bool visible = true;
 };
 
+/// Vertices of a field whose value is given (Dirichlet condition).
+struct FixedValue {
+  bool boundary = false;    ///< all vertices on the boundary of the mesh
+  std::optional<Box> box;   ///< and those inside, after the field's transform
+  std::string value = "0";  ///< a number, or a formula (formula.h)
+};
+
+/// A scalar field on a surface: sim/field.h.
+struct Field {
+  std::string name;  ///< unique among bodies, fields and colliders; made up ("field-1") when the file gives none
+  std::string equation = "poisson";  ///< of sim::field_equations()
+  std::optional<Grid> grid;          ///< in the xz plane, centred; exactly one of `grid` and `mesh.path` is given
+  MeshSource mesh;
+  Transform transform;
+  double diffusivity = 1;  ///< of heat [m^2/s]
+  double speed = 1;        ///< of a wave [m/s]
+  FieldMass mass = FieldMass::kLumped;
+  std::string source = "0";        ///< a number, or a formula; so are the next two
+  std::string initial = "0";       ///< at t = 0
+  std::string initial_rate = "0";  ///< of a wave at t = 0 [1/s]
+  std::vector<FixedValue> fixed;   ///< none: nothing flows through the boundary
+
+  double height = 0;  ///< drawn displaced along the normal by height times the value [m]
+  ColorMap colormap = ColorMap::kViridis;
+  std::optional<std::array<double, 2>> range;  ///< values of the first and last colour; absent: of the whole clip
+  std::optional<double> shading;  ///< 0: exactly the colours of the bar, 1: fully lit; absent: 0, with a height 0.5
+  bool colorbar = true;
+  std::string label;  ///< of the colour bar
+};
+
 struct Contact {
   double distance = 2e-3;           ///< at which the penalty begins [m]
   double slip_speed = 1e-3;         ///< below which friction holds [m/s]
@@ -330,6 +362,7 @@ struct Scene {
   std::vector<SoftBody> soft;
   std::vector<Cloth> cloth;
   std::vector<SpringBody> springs;
+  std::vector<Field> fields;
   std::vector<Collider> colliders;
   std::vector<Load> loads;
   std::vector<Attach> attachments;

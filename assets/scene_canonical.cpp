@@ -62,7 +62,8 @@ bool placed_by_the_clip(const Scene& scene) {
     return light.kind == LightKind::kArea && (!light.position || !light.radius);
   });
   const bool ground = scene.render.ground.show != GroundMode::kOff && !scene.render.ground.height;
-  return lights || ground || !scene.camera.position || !scene.camera.target;
+  const bool range = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& f) { return !f.range; });
+  return lights || ground || range || !scene.camera.position || !scene.camera.target;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace softreel::assets {
 std::string canonical_physics(const Scene& scene);
 
 /// Every key that only the picture depends on. When something is placed by what the whole clip covers (camera, ground,
-/// area lights), the duration is among them.
+/// area lights, the range of a field), the duration is among them.
 std::string canonical_picture(const Scene& scene);
 
 }  // namespace softreel::assets

@@ -1,5 +1,6 @@
 // The table: every key of a scene file. To add one, add a line here (and a rule in scene_rules.cpp, if it depends on
-// another key). Bodies and colliders are in scene_keys_bodies.cpp, what acts on them in scene_keys_forces.cpp.
+// another key). Bodies and colliders are in scene_keys_bodies.cpp, fields in scene_keys_fields.cpp, what acts on bodies in
+// scene_keys_forces.cpp.
 #include "assets/scene_limits.h"
 #include "assets/scene_rules.h"
 #include "assets/scene_walk.h"
@@ -113,6 +114,7 @@ void walk_scene(KeyVisitor& v, Scene& s) {
   v.list({"soft", "a soft body of tetrahedra"}, keys_of(s.soft));
   v.list({"cloth", "a sheet of triangles"}, keys_of(s.cloth));
   v.list({"springs", "points with masses, and springs between them"}, keys_of(s.springs));
+  v.list({"field", "a scalar field on a surface"}, keys_of(s.fields));
   v.list({"collider", "what bodies bump into"}, keys_of(s.colliders));
   v.list({"load", "forces on a part of a body that keep their size and direction"}, keys_of(s.loads));
   v.list({"attach", "ties between vertices of a body and the surface of another"}, keys_of(s.attachments));

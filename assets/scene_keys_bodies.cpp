@@ -8,8 +8,6 @@ namespace softreel::assets {
 
 using enum Role;
 
-namespace {
-
 void walk_transform(KeyVisitor& v, Transform& t) {
   v.key({"translate", kPhysics, "m", kPlace, "after scale and rotate"}, &t.translate);
   v.key({"rotate", kPhysics, "deg", kAngle, "about x, then y, then z, through pivot"}, &t.rotate);
@@ -23,6 +21,8 @@ void walk_mesh(KeyVisitor& v, MeshSource& m) {
   v.key({"up", kPhysics, "", {}, "axis of the mesh file that points up"}, choice(m.up));
   v.key({"size", kPhysics, "m", kLength, "scales the longest side of the mesh to this"}, &m.size);
 }
+
+namespace {
 
 void walk_motion(KeyVisitor& v, std::vector<MotionKey>& motion, const char* help) {
   v.list({"motion", help}, keys_of(motion));

@@ -17,6 +17,8 @@ Names names_of(UpAxis);
 Names names_of(ColliderShape);
 Names names_of(LightKind);
 Names names_of(GroundMode);
+Names names_of(FieldMass);
+Names names_of(ColorMap);
 
 /// "implicit-euler"
 template <class Enum>

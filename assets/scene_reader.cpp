@@ -23,9 +23,11 @@ class Reader : public KeyVisitor {
   void read() {
     walk_scene(*this, scene_);
     leave();
-    if (scene_.soft.empty() && scene_.cloth.empty() && scene_.springs.empty() && !misread_list_)
+    if (scene_.soft.empty() && scene_.cloth.empty() && scene_.springs.empty() && scene_.fields.empty() &&
+        !misread_list_)
       problem("",
-              "there is nothing to simulate; add a [[soft]], [[cloth]] or [[springs]], such as: [[soft]] block = {}");
+              "there is nothing to simulate; add a [[soft]], [[cloth]], [[springs]] or [[field]], such as: [[soft]] "
+              "block = {}");
   }
 
   void key(const Key& key, const ValueRef& value) override {
@@ -170,6 +172,7 @@ void name_unnamed(Scene& scene) {
   fill(scene.soft, "soft");
   fill(scene.cloth, "cloth");
   fill(scene.springs, "springs");
+  fill(scene.fields, "field");
   fill(scene.colliders, "collider");
   fill(scene.loads, "load");
   fill(scene.attachments, "attach");

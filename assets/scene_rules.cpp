@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <map>
 
 #include "assets/scene_limits.h"
+#include "assets/scene_nearest.h"
 #include "sim/catalogue.h"
 
 namespace softreel::assets {
@@ -24,13 +26,13 @@ void nonzero(KeyVisitor& v, const char* key, const Vec3& direction) {
   if (!(direction.norm() > 1e-9)) v.problem(key, "found [0, 0, 0], expected a direction; its length does not matter");
 }
 
-void check_mesh_or(KeyVisitor& v, const Body& body, bool made, const char* key, const char* example) {
+void check_mesh_or(KeyVisitor& v, const MeshSource& mesh, bool made, const char* key, const char* example) {
   const bool wants_mesh = v.given("mesh"), wants_made = v.given(key);
   if (wants_mesh && wants_made)
     v.problem(key, fmt::format("both mesh and {} are given; keep one of them", key));
   else if (!wants_mesh && !wants_made)
     v.problem("", fmt::format("has no shape; add mesh = \"FILE\" or {}", example));
-  if (body.mesh.path.empty() && made) only_for(v, false, {"unit", "up", "size"}, "is for a mesh file");
+  if (mesh.path.empty() && made) only_for(v, false, {"unit", "up", "size"}, "is for a mesh file");
 }
 
 // A material without a volume term takes Poisson's ratio for its shear modulus only.
@@ -46,7 +48,7 @@ void note_poisson(KeyVisitor& v, const sim::MaterialTraits& traits, const std::s
 // have their own.
 void check_names(KeyVisitor& v, const Scene& scene) {
   std::map<std::string, std::string> first;  // name -> where it was first used
-  const auto collect = [&](const auto& things, const char* kind, const char* whose = "every body and collider needs") {
+  const auto collect = [&](const auto& things, const char* kind, const char* whose = "every body, field and collider needs") {
     for (size_t i = 0; i < things.size(); ++i) {
       const std::string place = fmt::format("{}.{}", kind, i + 1);
       const bool given = !things[i].name.empty();
@@ -60,6 +62,7 @@ void check_names(KeyVisitor& v, const Scene& scene) {
   collect(scene.soft, "soft");
   collect(scene.cloth, "cloth");
   collect(scene.springs, "springs");
+  collect(scene.fields, "field");
   collect(scene.colliders, "collider");
   first.clear();
   collect(scene.loads, "load", "every load needs");
@@ -110,6 +113,20 @@ void check_consistent_mass(KeyVisitor& v, const Scene& scene) {
   });
 }
 
+// All share the integrator of [time], and not every equation takes every one.
+void check_field_integrators(KeyVisitor& v, const Scene& scene) {
+  for (size_t i = 0; i < scene.fields.size(); ++i) {
+    const Field& field = scene.fields[i];
+    const sim::Catalogue all = sim::field_integrators(field.equation);
+    std::vector<std::string> names;
+    for (const sim::MethodInfo& info : all) names.emplace_back(info.name);
+    if (all.empty() || std::find(names.begin(), names.end(), scene.time.integrator) != names.end()) continue;
+    v.problem("time.integrator",
+              fmt::format("found \"{}\", which cannot step field {} with equation = \"{}\"; it takes {}",
+                          scene.time.integrator, i + 1, field.equation, join_names(names, true)));
+  }
+}
+
 }  // namespace
 
 void check(KeyVisitor& v, const Solver& s) {
@@ -134,6 +151,7 @@ void check(KeyVisitor& v, Scene& scene) {
   check_references(v, scene);
   check_static(v, scene);
   check_consistent_mass(v, scene);
+  check_field_integrators(v, scene);
 }
 
 void check(KeyVisitor& v, const Time& time) {
@@ -177,14 +195,14 @@ void check(KeyVisitor& v, const Pin& pin) {
 }
 
 void check(KeyVisitor& v, const SoftBody& body) {
-  check_mesh_or(v, body, body.block.has_value(), "block", "block = { size = [1, 1, 1], cells = [8, 8, 8] }");
+  check_mesh_or(v, body.mesh, body.block.has_value(), "block", "block = { size = [1, 1, 1], cells = [8, 8, 8] }");
   only_for(v, !body.block, {"tetrahedralize"}, "is for a mesh; a block is made of tetrahedra already");
   const SolidMaterial& m = body.material;
   note_poisson(v, sim::solid_traits(m.model), m.model, m.young, m.poisson);
 }
 
 void check(KeyVisitor& v, const Cloth& cloth) {
-  check_mesh_or(v, cloth, cloth.grid.has_value(), "grid", "grid = { size = [1, 1], cells = [32, 32] }");
+  check_mesh_or(v, cloth.mesh, cloth.grid.has_value(), "grid", "grid = { size = [1, 1], cells = [32, 32] }");
   const bool springs = cloth.model == ClothModel::kMassSpring;
   only_for(v, springs, {"springs", "spring_damping"}, "is for model = \"mass-spring\"");
   only_for(v, !springs, {"bending_model", "material.model"}, "is for model = \"membrane\"");
@@ -193,6 +211,27 @@ void check(KeyVisitor& v, const Cloth& cloth) {
   const ClothMaterial& m = cloth.material;
   if (!springs) note_poisson(v, sim::membrane_traits(m.model), m.model, m.young, m.poisson);
   only_for(v, !springs, {"material.bending"}, "is for model = \"membrane\"; masses and springs have springs.bend");
+}
+
+void check(KeyVisitor& v, const FixedValue& fixed) {
+  if (!fixed.boundary && !v.given("box"))
+    v.problem("", "says of no vertices that they are held; add boundary = true or box = [[x, y, z], [x, y, z]]");
+}
+
+void check(KeyVisitor& v, const Field& field) {
+  check_mesh_or(v, field.mesh, field.grid.has_value(), "grid", "grid = { size = [1, 1], cells = [64, 64] }");
+  const bool heat = field.equation == "heat", wave = field.equation == "wave";
+  only_for(v, heat, {"diffusivity"}, "is for equation = \"heat\"");
+  only_for(v, wave, {"speed", "initial_rate"}, "is for equation = \"wave\"");
+  only_for(v, heat || wave, {"initial", "mass"},
+           "is for equation = \"heat\" or \"wave\"; poisson has no time of its own");
+  if (!heat && !wave && field.fixed.empty())
+    v.problem("",
+              "poisson needs a value somewhere (pure Neumann conditions have no single solution); add fixed = [{ "
+              "boundary = true }]");
+  only_for(v, field.colorbar, {"label"}, "is written over the colour bar, and colorbar is false");
+  if (field.range && !((*field.range)[0] < (*field.range)[1]))
+    v.problem("range", "found two values that do not rise, expected [lowest, highest]");
 }
 
 void check(KeyVisitor& v, Collider& c) {

@@ -17,6 +17,8 @@ void check(KeyVisitor& v, const SoftBody& body);
 void check(KeyVisitor& v, const Cloth& cloth);
 void check(KeyVisitor& v, const Chain& chain);
 void check(KeyVisitor& v, const SpringBody& body);
+void check(KeyVisitor& v, const FixedValue& fixed);
+void check(KeyVisitor& v, const Field& field);
 void check(KeyVisitor& v, Collider& collider);
 void check(KeyVisitor& v, const Load& load);
 void check(KeyVisitor& v, const Attach& attach);

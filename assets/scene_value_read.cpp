@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "assets/formula.h"
 #include "assets/scene_colors.h"
 #include "assets/scene_nearest.h"
 #include "assets/scene_value.h"
@@ -187,6 +188,20 @@ class ValueReader {
       axes[static_cast<size_t>(c - 'x')] = true;
     }
     *out.value = axes;
+    return true;
+  }
+
+  bool read(const Node& node, const FormulaRef& out) {
+    if (node.is_number()) {
+      double number = 0;
+      if (!read(node, &number)) return false;
+      *out.text = fmt::format("{}", number);
+      return true;
+    }
+    if (node.kind != Node::Kind::kString) return fail(node);
+    if (const auto fault = formula_fault(node.text))
+      return fail(node, fmt::format("{}. A formula is made of {}", *fault, formula_help()));
+    *out.text = node.text;
     return true;
   }
 

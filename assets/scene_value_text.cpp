@@ -116,6 +116,7 @@ std::string expected_text(const Key& key, const ValueRef& value, const std::stri
           [&](Vec3*) { return "three numbers [x, y, z]" + unit + each; },
           [&](std::optional<Vec3>*) { return "three numbers [x, y, z]" + unit + each; },
           [&](std::array<double, 2>*) { return "two numbers [x, z]" + unit + each; },
+          [&](std::optional<std::array<double, 2>>*) { return "two numbers [lowest, highest]" + unit + each; },
           [&](std::array<int, 2>*) { return "two whole numbers" + unit + each; },
           [&](std::array<int, 3>*) { return "three whole numbers" + unit + each; },
           [&](std::vector<int>*) { return "whole numbers [i, j, ...]" + each; },
@@ -137,6 +138,9 @@ std::string expected_text(const Key& key, const ValueRef& value, const std::stri
           [](const MethodRef& m) { return "one of " + join_names(method_names(m), true); },
           [&](const ScaleRef&) { return "a number or three [x, y, z]" + unit + each; },
           [](const AxesRef&) { return std::string("a text of x, y and z, such as \"xz\""); },
+          [&](const FormulaRef&) {
+            return "a number" + unit + range + ", or a formula in x, y, z, t as a text such as \"sin(pi*x)*exp(-t)\"";
+          },
           [&](const UnitRef&) {
             return "one of " + join_names(unit_names(), true) + ", or a number of metres" + range;
           },
@@ -154,6 +158,7 @@ std::string value_text(const ValueRef& value) {
                         [](Vec3* v) { return array_text(*v); },
                         [](std::optional<Vec3>* v) { return optional_text(*v); },
                         [](std::array<double, 2>* v) { return array_text(*v); },
+                        [](std::optional<std::array<double, 2>>* v) { return optional_text(*v); },
                         [](std::array<int, 2>* v) { return array_text(*v); },
                         [](std::array<int, 3>* v) { return array_text(*v); },
                         [](std::vector<int>* v) { return array_text(*v); },
@@ -184,6 +189,10 @@ std::string value_text(const ValueRef& value) {
                           for (size_t i = 0; i < 3; ++i)
                             if ((*v.value)[i]) axes += "xyz"[i];
                           return toml_string(axes);
+                        },
+                        [](const FormulaRef& v) {
+                          const bool number = v.text->find_first_not_of("+-.0123456789e") == std::string::npos;
+                          return number && *v.text != "e" ? *v.text : toml_string(*v.text);
                         },
                         [](const UnitRef& v) { return fmt::format("{}", *v.metres); },
                     },

@@ -19,6 +19,8 @@ void walk(KeyVisitor& v, SoftBody& body);
 void walk(KeyVisitor& v, Cloth& cloth);
 void walk(KeyVisitor& v, Chain& chain);
 void walk(KeyVisitor& v, SpringBody& body);
+void walk(KeyVisitor& v, FixedValue& fixed);
+void walk(KeyVisitor& v, Field& field);
 void walk(KeyVisitor& v, Collider& collider);
 void walk(KeyVisitor& v, Load& load);
 void walk(KeyVisitor& v, Attach& attach);
@@ -31,5 +33,9 @@ void walk(KeyVisitor& v, Light& light);
 void walk(KeyVisitor& v, Background& background);
 void walk(KeyVisitor& v, Ground& ground);
 void walk(KeyVisitor& v, Render& render);
+
+// Keys that stand beside others in the same table.
+void walk_mesh(KeyVisitor& v, MeshSource& mesh);
+void walk_transform(KeyVisitor& v, Transform& transform);
 
 }  // namespace softreel::assets

@@ -1,6 +1,6 @@
 #pragma once
 // The methods that a scene can choose by name. Each table lives beside what it makes: solid.cpp, membrane.cpp,
-// integrators.cpp, minimizer.cpp, newton.cpp, line_search.cpp, convergence_test.cpp, linear_solver.cpp,
+// integrators.cpp, field.cpp, minimizer.cpp, newton.cpp, line_search.cpp, convergence_test.cpp, linear_solver.cpp,
 // preconditioner.cpp.
 #include <span>
 #include <string_view>
@@ -35,5 +35,9 @@ Catalogue line_searches();
 Catalogue stopping_tests();
 Catalogue linear_solvers();
 Catalogue preconditioners();
+Catalogue field_equations();
+/// Those that an equation of a field can be stepped with; none for one that is only solved. Throws
+/// std::invalid_argument for an unknown equation.
+Catalogue field_integrators(std::string_view equation);
 
 }  // namespace softreel::sim
