@@ -47,7 +47,9 @@ std::vector<BillItem> bill_of(const Scene& s) {
       : s.wind->gusts ? fmt::format("{:.4g} m/s with gusts", s.wind->velocity.norm())
                       : fmt::format("{:.4g} m/s", s.wind->velocity.norm()),
       "there is no [wind]");
-  add("gravity", s.gravity.squaredNorm() > 0, fmt::format("{:.4g} m/s^2", s.gravity.norm()), "gravity is zero");
+  const bool bodies = !s.soft.empty() || !s.cloth.empty() || !s.springs.empty();
+  add("gravity", bodies && s.gravity.squaredNorm() > 0, fmt::format("{:.4g} m/s^2", s.gravity.norm()),
+      bodies ? "gravity is zero" : "there is no body");
   const bool damped = s.damping.drag + s.damping.alpha + s.damping.beta > 0 ||
                       count(s.cloth, [](const Cloth& c) { return c.spring_damping > 0; }) > 0 ||
                       count(s.springs, [](const SpringBody& b) { return b.damping > 0; }) > 0 ||
@@ -61,9 +63,12 @@ std::vector<BillItem> bill_of(const Scene& s) {
   add("friction", count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0, "some colliders are rough",
       s.colliders.empty() ? "there is no collider" : "every collider's friction is 0");
   const std::string& integrator = s.time.integrator;
-  add("Hessians and a linear solver", sim::is_implicit(integrator),
+  add("Hessians and a linear solver", bodies && sim::is_implicit(integrator),
       fmt::format("{} solves a system in each step (linear = {})", integrator, s.solver.linear),
-      fmt::format("{} is explicit", integrator));
+      bodies ? fmt::format("{} is explicit", integrator) : "there is no body");
+  add("scalar fields", !s.fields.empty(), number(s.fields.size(), "field", "fields"), "there is no field");
+  add("colour bars", count(s.fields, [](const Field& f) { return f.colorbar; }) > 0, "a field shows its scale",
+      s.fields.empty() ? "there is no field" : "colorbar is false");
   add("shadow maps", count(s.lights, [](const Light& l) { return l.shadow; }) > 0, "a light casts shadows",
       "no light casts shadows");
   add("accumulation buffer", s.render.samples > 1, fmt::format("samples = {}", s.render.samples), "samples = 1");

@@ -39,6 +39,13 @@ void ClipCache::write(int frame, const CachedFrame& data) const {
                     {"newton_iterations", data.figures.newton_iterations},
                     {"linear_iterations", data.figures.linear_iterations},
                     {"retried_steps", data.figures.retried_steps}};
+  for (std::size_t i = 0; i < data.fields.size(); ++i) {
+    const std::string name = fmt::format("field/{}/", i + 1);
+    record.arrays[name + "value"] = to_vector(data.fields[i].value);
+    record.arrays[name + "rate"] = to_vector(data.fields[i].rate);
+    record.arrays[name + "memory"] = data.fields[i].memory;
+  }
+  if (!data.fields.empty()) record.scalars["fields"] = static_cast<double>(data.fields.size());
   assets::write_state(file(frame), hash_of(frame), record);
 }
 
@@ -58,6 +65,14 @@ std::optional<CachedFrame> ClipCache::read(int frame, int vertices) const {
     data.figures.newton_iterations = s.at("newton_iterations");
     data.figures.linear_iterations = s.at("linear_iterations");
     data.figures.retried_steps = s.at("retried_steps");
+    const auto fields = s.find("fields");
+    data.fields.resize(fields == s.end() ? 0 : static_cast<std::size_t>(fields->second));
+    for (std::size_t i = 0; i < data.fields.size(); ++i) {
+      const std::string name = fmt::format("field/{}/", i + 1);
+      data.fields[i].value = to_eigen(record->arrays.at(name + "value"));
+      data.fields[i].rate = to_eigen(record->arrays.at(name + "rate"));
+      data.fields[i].memory = record->arrays.at(name + "memory");
+    }
   } catch (const std::out_of_range&) {
     return std::nullopt;  // written by another version
   }

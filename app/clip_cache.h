@@ -16,10 +16,17 @@ struct FrameFigures {
   double steps = 0, newton_iterations = 0, linear_iterations = 0, retried_steps = 0;
 };
 
+/// Of one field.
+struct CachedField {
+  Eigen::VectorXd value, rate;  ///< Field::value, Field::rate
+  std::vector<double> memory;   ///< Field::memory
+};
+
 struct CachedFrame {
-  sim::State state;
+  sim::State state;            ///< of the bodies; its time is that of the fields, too
   std::vector<double> memory;  ///< Simulation::memory
   FrameFigures figures;
+  std::vector<CachedField> fields;  ///< as scene.fields
 };
 
 class ClipCache {

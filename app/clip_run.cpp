@@ -63,6 +63,10 @@ Shapes simulate_plan(ClipPlan& plan, int last, bool quiet) {
     f.vertices += static_cast<long>(s.rest.size());
     if (s.drawn) f.triangles += static_cast<long>(s.drawn->mesh().triangles.size());
   }
+  for (const ClothShape& c : shapes.fields) {
+    f.field_vertices += static_cast<long>(c.rest.vertices.size());
+    f.triangles += static_cast<long>(c.rest.triangles.size());
+  }
   if (plan.cache.complete_frames(last) < last) {
     f.simulated = true;
     f.clip = simulate_clip(plan.scene, shapes, plan.cache, last, quiet);

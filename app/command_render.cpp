@@ -63,10 +63,10 @@ void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
   for (int f = 1; f <= last; ++f) {
     const CachedFrame data = must_read(plan.cache, f);
     plan.figures.per_frame.push_back(data.figures);
-    if (whole) add_frame(plan.scene, shapes, data.state, extent);
+    if (whole) add_frame(plan.scene, shapes, data, extent);
   }
   // Frame 1 whichever frames are asked for, so that each looks the same in every selection.
-  if (!whole) add_frame(plan.scene, shapes, must_read(plan.cache, 1).state, extent);
+  if (!whole) add_frame(plan.scene, shapes, must_read(plan.cache, 1), extent);
   Stage stage(plan.scene, shapes, extent);
   render::FrameWriter writer(1);
   {
@@ -78,7 +78,7 @@ void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
                                     {"softreel:sim_hash", plan.figures.simulation_hash},
                                     {"Software", "softreel " + version()},
                                     {"softreel:driver", stage.renderer().driver()}};
-      writer.write(plan.output / frame_file_name(f), stage.draw(must_read(plan.cache, f).state), text);
+      writer.write(plan.output / frame_file_name(f), stage.draw(must_read(plan.cache, f)), text);
       ++plan.figures.frames_rendered;
       progress.advance();
     }

@@ -79,15 +79,17 @@ SolidShape load_solid(const assets::Scene& scene, const assets::SoftBody& soft,
   return shape;
 }
 
-ClothShape load_cloth(const assets::Scene& scene, const assets::Cloth& cloth, Shapes& shapes) {
+/// Of a cloth or field.
+template <class Sheet>
+ClothShape load_sheet(const assets::Scene& scene, const Sheet& sheet, Shapes& shapes) {
   ClothShape shape;
-  if (cloth.grid)
+  if (sheet.grid)
     shape.drawn.surface = assets::surface_from_mesh(
-        sim::grid_sheet(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->cells[0], cloth.grid->cells[1]));
+        sim::grid_sheet(sheet.grid->size[0], sheet.grid->size[1], sheet.grid->cells[0], sheet.grid->cells[1]));
   else
-    shape.drawn.surface = import(scene, cloth.mesh, shapes.notes);
-  scale_about_pivot(cloth.transform, shape.drawn.surface.welded.vertices);
-  place_surface(cloth.transform, shape.drawn.surface);
+    shape.drawn.surface = import(scene, sheet.mesh, shapes.notes);
+  scale_about_pivot(sheet.transform, shape.drawn.surface.welded.vertices);
+  place_surface(sheet.transform, shape.drawn.surface);
   shape.rest = shape.drawn.surface.welded;
   shape.drawn.position_count = static_cast<int>(shape.rest.vertices.size());
   return shape;
@@ -151,8 +153,9 @@ assets::MeshOptions mesh_options(const assets::MeshSource& source) {
 Shapes load_shapes(const assets::Scene& scene, const std::filesystem::path& cache_folder) {
   Shapes shapes;
   for (const assets::SoftBody& soft : scene.soft) shapes.soft.push_back(load_solid(scene, soft, cache_folder, shapes));
-  for (const assets::Cloth& cloth : scene.cloth) shapes.cloth.push_back(load_cloth(scene, cloth, shapes));
+  for (const assets::Cloth& cloth : scene.cloth) shapes.cloth.push_back(load_sheet(scene, cloth, shapes));
   for (const assets::SpringBody& body : scene.springs) shapes.springs.push_back(load_springs(body, shapes));
+  for (const assets::Field& field : scene.fields) shapes.fields.push_back(load_sheet(scene, field, shapes));
   return shapes;
 }
 

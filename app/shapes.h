@@ -23,6 +23,7 @@ struct SolidShape {
   BodySurface drawn;
 };
 
+/// Of a cloth or field.
 struct ClothShape {
   sim::TriangleMesh rest;  ///< placed [m]
   BodySurface drawn;
@@ -38,6 +39,7 @@ struct Shapes {
   std::vector<SolidShape> soft;      ///< as scene.soft
   std::vector<ClothShape> cloth;     ///< as scene.cloth
   std::vector<SpringShape> springs;  ///< as scene.springs
+  std::vector<ClothShape> fields;    ///< as scene.fields
   std::vector<std::string> notes;    ///< what the user should know (textures not found, triangles left out)
   double tetrahedralize_seconds = 0;
   bool used_tetgen = false;      ///< a surface had to be filled

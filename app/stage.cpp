@@ -91,7 +91,9 @@ bool needs_whole_clip(const assets::Scene& scene) {
   const bool light = std::any_of(scene.lights.begin(), scene.lights.end(), [](const assets::Light& l) {
     return l.kind == assets::LightKind::kArea && (!l.position || !l.radius);
   });
-  return camera || ground || light;
+  const bool range =
+      std::any_of(scene.fields.begin(), scene.fields.end(), [](const assets::Field& f) { return !f.range; });
+  return camera || ground || light || range;
 }
 
 void ClipExtent::add(const render::Bounds& box) {
@@ -102,7 +104,8 @@ void ClipExtent::add(const render::Bounds& box) {
                         corner & 4 ? box.high.z : box.low.z);
 }
 
-void add_frame(const assets::Scene& scene, const Shapes& shapes, const sim::State& state, ClipExtent& extent) {
+void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& frame, ClipExtent& extent) {
+  const sim::State& state = frame.state;
   for_each_body(scene, shapes, [&](const assets::Body& body, const BodySurface& drawn, int first, bool) {
     if (body.visible) extent.add(box_around(state.x, first, drawn.position_count));
   });
@@ -116,6 +119,13 @@ void add_frame(const assets::Scene& scene, const Shapes& shapes, const sim::Stat
     }
     extent.add(box);
   });
+  extent.field_ranges.resize(scene.fields.size());
+  for (size_t i = 0; i < scene.fields.size(); ++i) {
+    render::Bounds box;
+    box.add(FieldSurface(scene.fields[i], shapes.fields[i]).positions(frame.fields.at(i).value));
+    extent.add(box);
+    extent.field_ranges[i].add(frame.fields[i].value);
+  }
   for (const assets::Collider& c : scene.colliders)
     if (c.visible && c.shape != assets::ColliderShape::kPlane)
       extent.add(moved(shape_of(c, extent), make_collider(c).pose(state.t)));
@@ -126,6 +136,7 @@ Stage::Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent&
       renderer_({scene.render.size[0], scene.render.size[1], scene.render.samples,
                  static_cast<std::uint32_t>(scene.render.seed), 0}) {
   add_bodies(shapes);
+  add_fields(shapes, extent);
   add_colliders(extent);
   place_camera(extent);
   place_lights(extent);
@@ -142,6 +153,19 @@ void Stage::add_bodies(const Shapes& shapes) {
   for_each_net(scene_, shapes, [&](const assets::SpringBody& body, const BallsAndRods& drawn, int first) {
     nets_.push_back({renderer_.add_mesh(drawn.mesh(), {plain_look(body.look, std::nullopt, false)}), first, &drawn});
   });
+}
+
+void Stage::add_fields(const Shapes& shapes, const ClipExtent& extent) {
+  for (size_t i = 0; i < scene_.fields.size(); ++i) {
+    const assets::Field& field = scene_.fields[i];
+    DrawnSurface d =
+        drawn_surface(shapes.fields[i].drawn.surface, shapes.fields[i].drawn.position_count, {}, std::nullopt, true);
+    const std::array<double, 2> range = color_range(field, extent.field_ranges.at(i));
+    d.looks.assign(d.looks.size(), field_look(field));
+    fields_.push_back(
+        {renderer_.add_mesh(std::move(d.mesh), std::move(d.looks)), FieldSurface(field, shapes.fields[i]), range});
+    if (field.colorbar) bars_.push_back(color_bar(field, range));
+  }
 }
 
 void Stage::add_colliders(const ClipExtent& extent) {
@@ -230,12 +254,20 @@ void Stage::place_ground(const ClipExtent& extent) {
   }
 }
 
-render::Image Stage::draw(const sim::State& state) {
+render::Image Stage::draw(const CachedFrame& frame) {
+  const sim::State& state = frame.state;
   for (const DrawnBody& body : bodies_) renderer_.set_positions(body.mesh, points_of(state.x, body.first, body.count));
   for (const DrawnNet& net : nets_) renderer_.set_positions(net.mesh, net.shape->positions(state.x, net.first));
   for (const DrawnCollider& c : colliders_)
     if (c.moves) renderer_.set_transform(c.mesh, to_glm(c.collider.pose(state.t)));
-  return renderer_.render(camera_, lights_, environment_);
+  for (size_t i = 0; i < fields_.size(); ++i) {
+    const Eigen::VectorXd& value = frame.fields.at(i).value;
+    renderer_.set_positions(fields_[i].mesh, fields_[i].surface.positions(value));
+    renderer_.set_values(fields_[i].mesh, map_places(value, fields_[i].range));
+  }
+  render::Image picture = renderer_.render(camera_, lights_, environment_);
+  if (!bars_.empty()) render::draw_color_bars(picture, bars_);
+  return picture;
 }
 
 }  // namespace softreel::app

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/clip_cache.h"
+#include "app/drawn_field.h"
 #include "app/shapes.h"
 #include "assets/scene.h"
 #include "render/environment.h"
@@ -13,20 +14,21 @@
 
 namespace softreel::app {
 
-/// Whether camera, ground or lights are placed by what the whole clip covers, so that it has to be simulated before its
-/// first picture.
+/// Whether camera, ground, lights or the range of a field are placed by what the whole clip covers, so that it has to
+/// be simulated before its first picture.
 bool needs_whole_clip(const assets::Scene& scene);
 
 /// What the visible things cover over the frames that were added.
 struct ClipExtent {
-  render::Bounds bounds;          ///< of bodies and colliders with an end
-  std::vector<glm::vec3> points;  ///< corners of the boxes around each of them in each frame, for framing
+  render::Bounds bounds;                 ///< of bodies and colliders with an end
+  std::vector<FieldRange> field_ranges;  ///< as scene.fields
+  std::vector<glm::vec3> points;         ///< corners of the boxes around each of them in each frame, for framing
 
   void add(const render::Bounds& box);
 };
 
-/// The visible bodies and colliders of one frame.
-void add_frame(const assets::Scene& scene, const Shapes& shapes, const sim::State& state, ClipExtent& extent);
+/// The visible bodies, fields and colliders of one frame.
+void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& frame, ClipExtent& extent);
 
 class Stage {
  public:
@@ -34,11 +36,12 @@ class Stage {
   /// `shapes` must outlive this.
   Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent);
 
-  render::Image draw(const sim::State& state);
+  render::Image draw(const CachedFrame& frame);
   const render::Renderer& renderer() const { return renderer_; }
 
  private:
   void add_bodies(const Shapes& shapes);
+  void add_fields(const Shapes& shapes, const ClipExtent& extent);
   void add_colliders(const ClipExtent& extent);
   void place_camera(const ClipExtent& extent);
   void place_lights(const ClipExtent& extent);
@@ -53,6 +56,11 @@ class Stage {
     int first = 0;  // vertex of the state
     const BallsAndRods* shape = nullptr;
   };
+  struct DrawnField {
+    render::MeshId mesh;
+    FieldSurface surface;
+    std::array<double, 2> range;
+  };
   struct DrawnCollider {
     render::MeshId mesh;
     sim::Collider collider;
@@ -63,6 +71,8 @@ class Stage {
   render::Renderer renderer_;
   std::vector<DrawnBody> bodies_;
   std::vector<DrawnNet> nets_;
+  std::vector<DrawnField> fields_;
+  std::vector<render::ColorBar> bars_;
   std::vector<DrawnCollider> colliders_;
   const assets::Collider* ground_plane_ = nullptr;  // a plane collider that is drawn as the ground
   render::Camera camera_;

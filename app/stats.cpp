@@ -36,6 +36,7 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
   if (run.clip.total.descent_iterations > 0) j["descent_iterations"] = run.clip.total.descent_iterations;
   // Meshes that this run did not load are not counted.
   if (run.vertices > 0) j["vertices"] = run.vertices;
+  if (run.field_vertices > 0) j["field_vertices"] = run.field_vertices;
   if (run.triangles > 0) {
     j["triangles"] = run.triangles;
     j["tets"] = run.tets;

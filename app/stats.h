@@ -15,6 +15,7 @@ struct RunFigures {
   std::string scene, simulation_hash, frame_hash;
   std::vector<BillItem> bill;
   long vertices = 0, triangles = 0, tets = 0;  ///< simulated vertices, drawn triangles, tetrahedra
+  long field_vertices = 0;                     ///< of fields
   int frames_asked = 0, frames_rendered = 0, frames_up_to_date = 0;
   bool simulated = false;  ///< a simulation was started in this run
   ClipRun clip;

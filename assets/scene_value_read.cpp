@@ -199,8 +199,8 @@ class ValueReader {
       return true;
     }
     if (node.kind != Node::Kind::kString) return fail(node);
-    if (const auto fault = formula_fault(node.text))
-      return fail(node, fmt::format("{}. A formula is made of {}", *fault, formula_help()));
+    if (const auto mistake = formula_fault(node.text))
+      return fail(node, fmt::format("{}. A formula is made of {}", *mistake, formula_help()));
     *out.text = node.text;
     return true;
   }

@@ -68,6 +68,19 @@ std::uint8_t srgb_byte(float linear) { return kSrgb.byte(linear); }
 
 namespace {
 
+/// A pixel that is partly or wholly in the picture's own colours.
+void develop_display(const glm::vec4& pixel, const glm::vec4& display, const Environment& environment,
+                     const glm::vec3& background, std::uint8_t* out) {
+  const float own = std::clamp(display.w, 0.0f, 1.0f);
+  const float lit = std::clamp(pixel.w, 0.0f, 1.0f - own);
+  glm::vec3 color = glm::max(glm::vec3(display), 0.0f);
+  if (lit > 0) color += lit * tone_curve(glm::max(glm::vec3(pixel) / pixel.w, 0.0f) * environment.exposure);
+  const float alpha = own + lit;
+  color = environment.transparent ? color / alpha : color + background * (1 - alpha);
+  for (int c = 0; c < 3; ++c) out[c] = kSrgb.byte(color[c]);
+  out[3] = environment.transparent ? static_cast<std::uint8_t>(std::lround(255 * alpha)) : 255;
+}
+
 /// Rows [first, last) of the picture.
 void develop_rows(const FloatImage& film, const Environment& environment, std::size_t first, std::size_t last,
                   Image& image) {
@@ -81,6 +94,10 @@ void develop_rows(const FloatImage& film, const Environment& environment, std::s
       const glm::vec4& pixel = film.rgba[y * width + x];
       std::uint8_t* out = image.rgba.data() + 4 * (y * width + x);
       const float alpha = std::clamp(pixel.w, 0.0f, 1.0f);
+      if (!film.display.empty() && film.display[y * width + x].w > 0) {
+        develop_display(pixel, film.display[y * width + x], environment, background, out);
+        continue;
+      }
       out[3] = environment.transparent ? static_cast<std::uint8_t>(std::lround(255 * alpha)) : 255;
       if (!(alpha > 0)) {
         for (std::size_t c = 0; c < 3; ++c) out[c] = environment.transparent ? 0 : background_bytes[c];

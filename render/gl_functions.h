@@ -54,6 +54,7 @@ namespace softreel::render {
   X(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage)                     \
   X(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData)                     \
   X(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERPROC, NamedFramebufferDrawBuffer)     \
+  X(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERSPROC, NamedFramebufferDrawBuffers)   \
   X(PFNGLNAMEDFRAMEBUFFERREADBUFFERPROC, NamedFramebufferReadBuffer)     \
   X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture)           \
   X(PFNGLNAMEDFRAMEBUFFERTEXTURELAYERPROC, NamedFramebufferTextureLayer) \

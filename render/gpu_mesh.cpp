@@ -36,7 +36,22 @@ GpuMesh::GpuMesh(const GlFunctions& gl, SurfaceMesh mesh, std::vector<Look> look
     gl.VertexArrayVertexBuffer(array, 1, *uv_buffer_, 0, sizeof(glm::vec2));
     attribute(kUvAttribute, 2, 0, 1);
   }
+  if (std::any_of(looks_.begin(), looks_.end(), [](const Look& look) { return look.color_map.has_value(); })) {
+    values_.resize(mesh_.position_of.size(), 0);
+    value_buffer_ = make_buffer(gl, values_.size() * sizeof(float), values_.data(), GL_DYNAMIC_STORAGE_BIT);
+    gl.VertexArrayVertexBuffer(array, 2, *value_buffer_, 0, sizeof(float));
+    attribute(kValueAttribute, 1, 0, 2);
+  }
   check_gl(gl, "set up a mesh");
+}
+
+void GpuMesh::set_values(std::span<const float> values) {
+  if (!is_field()) throw std::invalid_argument("values for a mesh whose looks have no colour map");
+  if (values.size() != mesh_.position_count)
+    throw std::invalid_argument(
+        fmt::format("{} values for a mesh of {} positions", values.size(), mesh_.position_count));
+  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = values[mesh_.position_of[i]];
+  values_waiting_ = true;
 }
 
 void GpuMesh::set_positions(std::span<const glm::vec3> positions) {
@@ -53,6 +68,10 @@ void GpuMesh::set_positions(std::span<const glm::vec3> positions) {
 }
 
 void GpuMesh::upload(RenderCounters& counters) {
+  if (values_waiting_) {
+    values_waiting_ = false;
+    gl_.NamedBufferSubData(*value_buffer_, 0, static_cast<GLsizeiptr>(values_.size() * sizeof(float)), values_.data());
+  }
   if (!waiting_) return;
   waiting_ = false;
   compute_smooth_normals(mesh_, positions_, normals_);

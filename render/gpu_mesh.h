@@ -18,6 +18,8 @@ class GpuMesh {
 
   /// Keeps the positions for the next upload, unless they are the ones already there. `positions`: mesh.position_count.
   void set_positions(std::span<const glm::vec3> positions);
+  /// Keeps the values of a field for the next upload. `values`: mesh.position_count.
+  void set_values(std::span<const float> values);
   /// Normals and upload, when positions are waiting; counts it.
   void upload(RenderCounters& counters);
   /// Draws triangles [first, first + count).
@@ -26,6 +28,7 @@ class GpuMesh {
   bool has_positions() const { return !positions_.empty(); }
   std::size_t position_count() const { return mesh_.position_count; }
   std::size_t triangle_count() const { return mesh_.triangles.size(); }
+  bool is_field() const { return static_cast<bool>(value_buffer_); }
   bool has_uv() const { return !mesh_.uv.empty(); }
   std::span<const MeshPart> parts() const { return mesh_.parts; }
   const Look& look(std::size_t index) const { return looks_[index]; }
@@ -52,8 +55,11 @@ class GpuMesh {
   std::vector<Vertex> vertices_;
   Bounds bounds_;  ///< mesh space
   bool waiting_ = false;
+  std::vector<float> values_;  ///< per render vertex, of a field
+  bool values_waiting_ = false;
   GlBuffer vertex_buffer_;
   GlBuffer uv_buffer_;
+  GlBuffer value_buffer_;
   GlBuffer index_buffer_;
   GlVertexArray vertex_array_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 // How a surface looks: metallic-roughness, as glTF 2.0 defines it.
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -16,7 +17,11 @@ struct Look {
   float roughness = 0.5f;                ///< perceptual, 0 mirror .. 1 chalk; the GGX alpha is its square
   bool two_sided = false;                ///< also drawn from behind, with the normal turned (cloth)
   std::optional<glm::vec3> back_color;   ///< base colour seen from behind, linear; used when two_sided
-  float sheen = 0;                       ///< 0..1: soft bright rim of fibres (velvet, wool)
+  /// A field: colours by the mesh's values (Renderer::set_values) through this map (render/color_map.h). The picture
+  /// then holds the map's very colours, whatever light, exposure and tone curve do, darkened by `shading`.
+  std::optional<std::size_t> color_map;
+  float shading = 0;  ///< of a field: 0 not at all .. 1 by all the light that is missing
+  float sheen = 0;    ///< 0..1: soft bright rim of fibres (velvet, wool)
 };
 
 /// From sRGB components 0..1 (IEC 61966-2-1) to linear ones.

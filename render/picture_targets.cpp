@@ -21,6 +21,15 @@ PictureTargets::PictureTargets(const GlFunctions& gl, int width, int height) : g
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
 }
 
+void PictureTargets::add_display() {
+  if (display_) return;
+  display_ = make_texture(gl_, GL_RGBA32F, width_, height_);
+  gl_.NamedFramebufferTexture(*film_, GL_COLOR_ATTACHMENT1, *display_, 0);
+  constexpr std::array<GLenum, 2> kBoth{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl_.NamedFramebufferDrawBuffers(*film_, kBoth.size(), kBoth.data());
+  check_framebuffer(gl_, film_, "a picture of floats in two layers");
+}
+
 void PictureTargets::begin_geometry() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, *geometry_);
   gl_.Viewport(0, 0, width_, height_);
@@ -61,14 +70,19 @@ FloatImage PictureTargets::read(int passes) {
   FloatImage film;
   film.width = width_;
   film.height = height_;
-  film.rgba.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   gl_.BindFramebuffer(GL_FRAMEBUFFER, *film_);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, film.rgba.data());
+  const auto read_layer = [&](GLenum attachment, std::vector<glm::vec4>& layer) {
+    layer.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    gl_.NamedFramebufferReadBuffer(*film_, attachment);
+    gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, layer.data());
+    if (passes > 1) {
+      const float weight = 1.0f / static_cast<float>(passes);
+      for (glm::vec4& pixel : layer) pixel *= weight;
+    }
+  };
+  read_layer(GL_COLOR_ATTACHMENT0, film.rgba);
+  if (display_) read_layer(GL_COLOR_ATTACHMENT1, film.display);
   check_gl(gl_, "draw a picture");
-  if (passes > 1) {
-    const float weight = 1.0f / static_cast<float>(passes);
-    for (glm::vec4& pixel : film.rgba) pixel *= weight;
-  }
   return film;
 }
 

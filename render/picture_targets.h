@@ -12,6 +12,8 @@ class PictureTargets {
  public:
   PictureTargets(const GlFunctions& gl, int width, int height);
 
+  /// From now on the film has a second layer, FloatImage::display.
+  void add_display();
   /// Binds the geometry target and clears it: nothing there.
   void begin_geometry();
   /// Binds the film and what `begin_geometry` has noted as textures. With several passes the film is an accumulation
@@ -30,6 +32,7 @@ class PictureTargets {
   GlTexture depth_;
   GlFramebuffer geometry_;
   GlTexture color_;
+  GlTexture display_;
   GlFramebuffer film_;
   GlSampler nearest_;
 };

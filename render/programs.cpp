@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "render/color_map.h"
+
 namespace softreel::render {
 
 namespace {
@@ -11,11 +13,11 @@ constexpr GLenum kMaxAnisotropy = 0x84FE;  // GL_TEXTURE_MAX_ANISOTROPY, core si
 
 }  // namespace
 
-GLuint Programs::geometry(bool texture) {
-  const auto place = geometry_.find(texture);
+GLuint Programs::geometry(GeometryKind kind) {
+  const auto place = geometry_.find(kind);
   if (place != geometry_.end()) return *place->second;
-  GlProgram program(gl_, geometry_vertex_source(texture), geometry_fragment_source(texture));
-  return *geometry_.emplace(texture, std::move(program)).first->second;
+  GlProgram program(gl_, geometry_vertex_source(kind), geometry_fragment_source(kind));
+  return *geometry_.emplace(kind, std::move(program)).first->second;
 }
 
 GLuint Programs::lighting(const LightingFeatures& features) {
@@ -23,6 +25,18 @@ GLuint Programs::lighting(const LightingFeatures& features) {
   if (place != lighting_.end()) return *place->second;
   GlProgram program(gl_, full_target_vertex_source(), lighting_fragment_source(features));
   return *lighting_.emplace(features, std::move(program)).first->second;
+}
+
+void ColorMapTexture::bind() {
+  if (!texture_) {
+    const auto rows = static_cast<int>(color_maps().size());
+    texture_ = make_texture(gl_, GL_RGBA32F, kColorMapTexels, rows);
+    gl_.TextureSubImage2D(*texture_, 0, 0, 0, kColorMapTexels, rows, GL_RGBA, GL_FLOAT, color_map_texels().data());
+    sampler_ = make_sampler(gl_, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+    check_gl(gl_, "upload colour maps");
+  }
+  gl_.BindTextureUnit(kColorMapUnit, *texture_);
+  gl_.BindSampler(kColorMapUnit, *sampler_);
 }
 
 void ColorTextures::add(const Image& image, RenderCounters& counters) {

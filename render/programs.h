@@ -12,13 +12,25 @@ namespace softreel::render {
 class Programs {
  public:
   explicit Programs(const GlFunctions& gl) : gl_(gl) {}
-  GLuint geometry(bool texture);
+  GLuint geometry(GeometryKind kind);
   GLuint lighting(const LightingFeatures& features);
 
  private:
   const GlFunctions& gl_;
-  std::map<bool, GlProgram> geometry_;
+  std::map<GeometryKind, GlProgram> geometry_;
   std::map<LightingFeatures, GlProgram> lighting_;
+};
+
+/// The texture of all colour maps; made when first bound.
+class ColorMapTexture {
+ public:
+  explicit ColorMapTexture(const GlFunctions& gl) : gl_(gl) {}
+  void bind();
+
+ private:
+  const GlFunctions& gl_;
+  GlTexture texture_;
+  GlSampler sampler_;
 };
 
 class ColorTextures {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "render/color_map.h"
 #include "render/gl_context.h"
 #include "render/gpu_mesh.h"
 #include "render/pass_setup.h"
@@ -40,7 +41,12 @@ int shadow_map_size(const RenderOptions& options) {
 
 struct Renderer::State {
   explicit State(const RenderOptions& asked)
-      : options(asked), gl(load_gl_functions()), targets(gl, asked.width, asked.height), programs(gl), textures(gl) {
+      : options(asked),
+        gl(load_gl_functions()),
+        targets(gl, asked.width, asked.height),
+        programs(gl),
+        textures(gl),
+        color_maps(gl) {
     no_vertices = make_vertex_array(gl);
     pass_buffer = make_buffer(gl, sizeof(PassUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
   }
@@ -52,6 +58,7 @@ struct Renderer::State {
   PictureTargets targets;
   Programs programs;
   ColorTextures textures;
+  ColorMapTexture color_maps;
   GlBuffer pass_buffer;
   GlVertexArray no_vertices;
   std::optional<ShadowMaps> shadow_maps;
@@ -68,6 +75,10 @@ struct Renderer::State {
     for (const auto& mesh : meshes)
       if (mesh->visible && mesh->has_positions()) result.push_back(mesh.get());
     return result;
+  }
+
+  bool has_fields() const {
+    return std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_field(); });
   }
 
   void upload_changes() {
@@ -105,6 +116,7 @@ struct Renderer::State {
       if (picture.shadow_map[light] >= 0) features.shadow_lights |= 1u << light;
     features.sky_shadow = picture.sky_map >= 0;
     features.ground = environment.ground.visible;
+    features.field = has_fields();
     for (const GpuMesh* mesh : meshes_drawn)
       for (const Look& look : mesh->looks()) features.sheen = features.sheen || look.sheen > 0;
     // What few passes cannot average they must filter.
@@ -114,17 +126,25 @@ struct Renderer::State {
 
   void draw_part(const GpuMesh& mesh, const MeshPart& part, const Look& look, float roughness) {
     const bool texture = look.texture != nullptr && mesh.has_uv() && roughness > 0;
-    const GLuint program = programs.geometry(texture);
+    const bool field = look.color_map.has_value();
+    const GLuint program = programs.geometry(field     ? GeometryKind::kField
+                                             : texture ? GeometryKind::kTexture
+                                                       : GeometryKind::kPlain);
     gl.UseProgram(program);
-    if (texture) textures.bind(*look.texture);
+    if (texture && !field) textures.bind(*look.texture);
     const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(mesh.world_from_mesh)));
     const glm::vec4 front(look.color, look.metallic);
     const glm::vec4 back(look.back_color.value_or(look.color), roughness);
     gl.ProgramUniformMatrix4fv(program, kWorldFromMeshUniform, 1, GL_FALSE, glm::value_ptr(mesh.world_from_mesh));
     gl.ProgramUniformMatrix3fv(program, kNormalMatrixUniform, 1, GL_FALSE, glm::value_ptr(normal_matrix));
-    gl.ProgramUniform4fv(program, kFrontColorUniform, 1, glm::value_ptr(front));
-    gl.ProgramUniform4fv(program, kBackColorUniform, 1, glm::value_ptr(back));
-    gl.ProgramUniform1f(program, kSheenUniform, look.sheen);
+    if (field) {
+      const glm::vec4 map(static_cast<float>(*look.color_map), look.shading, 0, 0);
+      gl.ProgramUniform4fv(program, kColorMapUniform, 1, glm::value_ptr(map));
+    } else {
+      gl.ProgramUniform4fv(program, kFrontColorUniform, 1, glm::value_ptr(front));
+      gl.ProgramUniform4fv(program, kBackColorUniform, 1, glm::value_ptr(back));
+      gl.ProgramUniform1f(program, kSheenUniform, look.sheen);
+    }
     if (look.two_sided)
       gl.Disable(GL_CULL_FACE);
     else
@@ -169,6 +189,10 @@ struct Renderer::State {
     targets.begin_geometry();
     draw_surfaces(meshes_drawn, environment);
 
+    if (has_fields()) {
+      targets.add_display();
+      color_maps.bind();
+    }
     targets.begin_lighting(pass, picture.passes, counters);
     gl.UseProgram(programs.lighting(features_of(picture, meshes_drawn, environment)));
     gl.BindVertexArray(*no_vertices);
@@ -211,6 +235,9 @@ Renderer::~Renderer() {
 MeshId Renderer::add_mesh(SurfaceMesh mesh, std::vector<Look> looks) {
   check_mesh(mesh, looks.size());
   state_->context.make_current();
+  for (const Look& look : looks)
+    if (look.color_map && *look.color_map >= color_maps().size())
+      throw std::invalid_argument(fmt::format("colour map {} of {}", *look.color_map, color_maps().size()));
   state_->meshes.push_back(std::make_unique<GpuMesh>(state_->gl, std::move(mesh), std::move(looks)));
   return state_->meshes.size() - 1;
 }
@@ -225,6 +252,8 @@ MeshId Renderer::add_shape(Shape shape, const Look& look) {
 void Renderer::set_positions(MeshId mesh, std::span<const glm::vec3> positions) {
   state_->mesh(mesh).set_positions(positions);
 }
+
+void Renderer::set_values(MeshId mesh, std::span<const float> values) { state_->mesh(mesh).set_values(values); }
 
 void Renderer::set_transform(MeshId mesh, const glm::mat4& world_from_mesh) {
   state_->mesh(mesh).world_from_mesh = world_from_mesh;

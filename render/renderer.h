@@ -48,6 +48,9 @@ class Renderer {
   /// New positions (position_count of them, mesh space [m]); normals follow from them. Uploaded with the next picture,
   /// and only when they differ from the last ones.
   void set_positions(MeshId mesh, std::span<const glm::vec3> positions);
+  /// New values of a field, 0..1 of its colour map (position_count of them; beyond, the colours of the ends). All 0 at
+  /// first. Throws std::invalid_argument for a mesh whose looks have no colour map.
+  void set_values(MeshId mesh, std::span<const float> values);
   /// world_from_mesh for a mesh that moves as a whole (no upload). Rotation, translation and any scale but zero.
   void set_transform(MeshId mesh, const glm::mat4& world_from_mesh);
   void set_visible(MeshId mesh, bool visible);

@@ -5,6 +5,7 @@ namespace softreel::render {
 // Four words per pixel: smooth normal, base colour, (roughness, metallic, sheen, 1 = something is here), facet normal.
 // Directions as octahedra (Z. Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
 // JCGT 3(2), 2014), colours as square roots, so that dark ones keep their steps. Roughness 0 marks the matte ground.
+// A field notes its value in the place of the colour, and (row of the colour map, shading, 0, 1/255).
 const char* const kGeometryMain = R"(
 in vec3 world_position;
 in vec3 world_normal;
@@ -14,6 +15,10 @@ layout(location = 4) uniform float sheen;
 #ifdef TEXTURE
 in vec2 texture_uv;
 layout(binding = 0) uniform sampler2D color_texture;
+#endif
+#ifdef FIELD
+in float field_value;
+layout(location = 5) uniform vec4 color_map;  // row, shading
 #endif
 layout(location = 0) out uvec4 result;
 
@@ -36,6 +41,10 @@ void main() {
   vec3 facet = cross(dFdx(world_position), dFdy(world_position));
   result = uvec4(pack_direction(gl_FrontFacing ? world_normal : -world_normal), pack_color(base),
                  packUnorm4x8(vec4(back_color.a, front_color.a, sheen, 1)), pack_direction(facet));
+#ifdef FIELD
+  result.y = floatBitsToUint(field_value);
+  result.z = uint(color_map.x) | uint(color_map.y * 255 + 0.5) << 8 | 1u << 24;
+#endif
 }
 )";
 

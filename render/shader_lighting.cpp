@@ -6,6 +6,16 @@ const char* const kLightingMain = R"(
 layout(binding = 3) uniform usampler2D surface_words;  // shader_geometry.cpp
 layout(binding = 4) uniform sampler2D surface_depth;
 layout(location = 0) out vec4 result;
+#ifdef FIELD
+layout(binding = 5) uniform sampler2D color_maps;
+layout(location = 1) out vec4 display;  // in the picture's own colours: no exposure, no tone curve
+
+vec3 field_color(uvec4 words) {
+  float value = uintBitsToFloat(words.y);
+  int last = textureSize(color_maps, 0).x - 1;
+  return texelFetch(color_maps, ivec2(int(clamp(value, 0, 1) * last + 0.5), int(words.z & 255u)), 0).rgb;
+}
+#endif
 
 vec3 unpack_direction(uint word) {
   vec2 p = unpackSnorm2x16(word);
@@ -98,6 +108,11 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uvec4 words = texelFetch(surface_words, pixel, 0);
   bool covered = words.z >= 0x01000000u;
+#ifdef FIELD
+  uvec4 noted = words;
+  bool field = (words.z >> 24) == 1u;
+  if (field) words.yz = uvec2(0xffffffffu, 0xff000000u);  // lit as if it were white and matte
+#endif
   float depth = texelFetch(surface_depth, pixel, 0).r;
   vec4 at = pass.world_from_clip * vec4(gl_FragCoord.xy * pass.picture.xy - 1, 2 * depth - 1, 1);
   Surface s = surface_here(words, at.xyz / at.w);
@@ -111,6 +126,15 @@ void main() {
 #endif
   // Far above white a single pass only adds sparkle.
   result = covered ? vec4(min(radiance, vec3(32)) * alpha, alpha) : vec4(0);
+#ifdef FIELD
+  display = vec4(0);
+  if (field) {
+    float light = clamp(dot(radiance, vec3(0.2126, 0.7152, 0.0722)), 0, 1);
+    float shading = float((noted.z >> 8) & 255u) / 255;
+    display = vec4(field_color(noted) * mix(1, light, shading), 1);
+    result = vec4(0);
+  }
+#endif
 }
 )";
 

@@ -34,6 +34,10 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 out vec2 texture_uv;
 #endif
+#ifdef FIELD
+layout(location = 3) in float value;
+out float field_value;
+#endif
 layout(location = 0) uniform mat4 world_from_mesh;
 layout(location = 1) uniform mat3 normal_matrix;
 out vec3 world_position;
@@ -45,9 +49,16 @@ void main() {
 #ifdef TEXTURE
   texture_uv = vec2(uv.x, 1 - uv.y);  // pictures are stored from top to bottom
 #endif
+#ifdef FIELD
+  field_value = value;
+#endif
   gl_Position = pass.clip_from_world * world;
 }
 )";
+
+const char* define_of(GeometryKind kind) {
+  return kind == GeometryKind::kTexture ? "#define TEXTURE\n" : kind == GeometryKind::kField ? "#define FIELD\n" : "";
+}
 
 constexpr const char* kShadowVertex = R"(
 layout(location = 0) in vec3 position;
@@ -61,13 +72,11 @@ void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3
 
 }  // namespace
 
-std::string geometry_vertex_source(bool texture) {
-  return header() + (texture ? "#define TEXTURE\n" : "") + kPassBlock + kGeometryVertex;
+std::string geometry_vertex_source(GeometryKind kind) {
+  return header() + define_of(kind) + kPassBlock + kGeometryVertex;
 }
 
-std::string geometry_fragment_source(bool texture) {
-  return header() + (texture ? "#define TEXTURE\n" : "") + kGeometryMain;
-}
+std::string geometry_fragment_source(GeometryKind kind) { return header() + define_of(kind) + kGeometryMain; }
 
 std::string lighting_fragment_source(const LightingFeatures& features) {
   std::string source = header();
@@ -79,6 +88,7 @@ std::string lighting_fragment_source(const LightingFeatures& features) {
   define(features.shadow_lights != 0 || features.sky_shadow, "SHADOW_MAPS");
   if (features.sky_shadow) source += fmt::format("#define SKY_SHADOW {}\n", std::popcount(features.shadow_lights));
   define(features.sheen, "SHEEN");
+  define(features.field, "FIELD");
   define(features.ground, "GROUND");
   return source + kPassBlock + kReflectance + kShadowLookup + kLightingMain;
 }

@@ -10,13 +10,21 @@ struct LightingFeatures {
   unsigned shadow_lights = 0;  ///< bit per light: it has a shadow map; the maps are numbered in the lights' order
   bool sky_shadow = false;     ///< ambient light has one, after the lights' maps
   bool sheen = false;
+  bool field = false;    ///< some surface is coloured by values: a second result, in the picture's own colours
   bool ground = false;   ///< the ground plane is there: fades with distance
   int shadow_taps = 12;  ///< map readings for the search of blockers, and again for the penumbra
   auto operator<=>(const LightingFeatures&) const = default;
 };
 
-std::string geometry_vertex_source(bool texture);
-std::string geometry_fragment_source(bool texture);
+/// Where a geometry program takes the base colour from.
+enum class GeometryKind {
+  kPlain,    ///< the look alone
+  kTexture,  ///< and a picture
+  kField     ///< values per vertex, coloured in the lighting program
+};
+
+std::string geometry_vertex_source(GeometryKind kind);
+std::string geometry_fragment_source(GeometryKind kind);
 std::string lighting_fragment_source(const LightingFeatures& features);
 /// Depth only, for shadow maps.
 std::string shadow_vertex_source();
@@ -28,17 +36,20 @@ std::string full_target_vertex_source();
 inline constexpr unsigned kPositionAttribute = 0;
 inline constexpr unsigned kNormalAttribute = 1;
 inline constexpr unsigned kUvAttribute = 2;
+inline constexpr unsigned kValueAttribute = 3;
 inline constexpr int kWorldFromMeshUniform = 0;  ///< mat4
 inline constexpr int kNormalMatrixUniform = 1;   ///< mat3
 inline constexpr int kClipFromMeshUniform = 0;   ///< mat4, shadow program
 inline constexpr int kFrontColorUniform = 2;     ///< vec4: rgb, metallic
 inline constexpr int kBackColorUniform = 3;      ///< vec4: rgb, roughness
 inline constexpr int kSheenUniform = 4;          ///< float
+inline constexpr int kColorMapUniform = 5;       ///< vec4: row of the map, shading
 inline constexpr unsigned kPassBinding = 0;      ///< uniform block
 inline constexpr unsigned kColorTextureUnit = 0;
 inline constexpr unsigned kShadowCompareUnit = 1;  ///< sampler2DArrayShadow
 inline constexpr unsigned kShadowDepthUnit = 2;    ///< the same maps as plain depths
 inline constexpr unsigned kSurfaceUnit = 3;        ///< usampler2D: what the geometry program has noted
 inline constexpr unsigned kDepthUnit = 4;          ///< sampler2D: its depth
+inline constexpr unsigned kColorMapUnit = 5;       ///< sampler2D: colour maps, one row each
 
 }  // namespace softreel::render

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "assets/export_pc2.h"
+#include "assets/generate/disc.h"
 #include "assets/generate/models.h"
 #include "assets/generate/polygonize.h"
 #include "assets/surface_diagnosis.h"
@@ -37,6 +39,8 @@ int main(int argc, char** argv) {
                                          generate::jelly_ring(), generate::jelly_bear()}) {
       good = make(model, argv[1]) && good;
     }
+    const sim::TriangleMesh drumhead = generate::disc(0.5, 32);
+    assets::write_obj(std::filesystem::path(argv[1]) / "disc.obj", drumhead.vertices, drumhead.triangles);
     return good ? 0 : 6;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -26,6 +26,9 @@ void change(const ValueRef& value) {
                  [](Vec3* v) { v->z() = std::nextafter(v->z(), 1e30); },
                  [](std::optional<Vec3>* v) { *v = Vec3(v->value_or(Vec3::Ones()) * 2); },
                  [](std::array<double, 2>* v) { (*v)[1] += 1; },
+                 [](std::optional<std::array<double, 2>>* v) {
+                   *v = std::array<double, 2>{-1, 2};
+                 },
                  [](std::array<int, 2>* v) { (*v)[1] += 1; },
                  [](std::array<int, 3>* v) { (*v)[2] += 1; },
                  [](std::vector<int>* v) { v->push_back(7); },
@@ -51,6 +54,7 @@ void change(const ValueRef& value) {
                  [](const ScaleRef& v) { v.value->x() *= 2; },
                  [](const AxesRef& v) { (*v.value)[1] = !(*v.value)[1]; },
                  [](const UnitRef& v) { *v.metres *= 2; },
+                 [](const FormulaRef& v) { *v.text += "+1"; },
              },
              value);
 }
