@@ -186,7 +186,12 @@ void Stage::add_colliders(const ClipExtent& extent) {
 
 void Stage::place_camera(const ClipExtent& extent) {
   const assets::Camera& c = scene_.camera;
-  const float aspect = static_cast<float>(scene_.render.size[0]) / static_cast<float>(scene_.render.size[1]);
+  const float whole_aspect = static_cast<float>(scene_.render.size[0]) / static_cast<float>(scene_.render.size[1]);
+  // Colour bars take a part of the right side; what is left of it frames the scene.
+  const float bars =
+      std::min(0.5f, static_cast<float>(render::color_bars_width(scene_.render.size[0], scene_.render.size[1], bars_)) /
+                         static_cast<float>(scene_.render.size[0]));
+  const float aspect = whole_aspect * (1 - bars);
   const float fov = static_cast<float>(c.fov);
   camera_.fov = fov;
   camera_.up = to_vec(c.up);
@@ -205,6 +210,13 @@ void Stage::place_camera(const ClipExtent& extent) {
         camera_.target + glm::length(framed.position - framed.target) * glm::normalize(to_vec(c.direction));
   }
   camera_.up = to_vec(c.up);
+  if (bars > 0 && !c.target) {  // half of that to the side brings the scene into the middle of the rest
+    const glm::vec3 ahead = camera_.target - camera_.position;
+    const glm::vec3 right = glm::normalize(glm::cross(ahead, camera_.up));
+    const glm::vec3 aside = right * (bars * whole_aspect * glm::length(ahead) * std::tan(glm::radians(fov) / 2));
+    camera_.position += aside;
+    camera_.target += aside;
+  }
 }
 
 void Stage::place_lights(const ClipExtent& extent) {
@@ -251,6 +263,8 @@ void Stage::place_ground(const ClipExtent& extent) {
   } else {
     ground.height =
         r.ground.height ? static_cast<float>(*r.ground.height) : (extent.bounds.empty() ? 0.0f : extent.bounds.low.y);
+    // A flat field would lie in the ground, and one of the two win in each pixel.
+    if (!r.ground.height && !fields_.empty()) ground.height -= 0.05f * extent.bounds.radius();
   }
 }
 

@@ -36,7 +36,11 @@ void walk(KeyVisitor& v, Field& f) {
         &f.height);
   v.key({"colormap", kPicture, "", {}, "coolwarm has its middle in white, the others go from dark to bright"},
         choice(f.colormap));
-  v.key({"range", kPicture, "", {}, "values of the first and last colour; left out, what the whole clip covers"},
+  v.key({"range",
+         kPicture,
+         "",
+         {},
+         "values of the first and last colour; left out, what the clip covers (coolwarm: alike on both sides of 0)"},
         &f.range);
   v.key({"shading", kPicture, "", kUnit,
          "0: the very colours of the bar; 1: darkened by light and shadow; left out, 0, or 0.5 with a height"},

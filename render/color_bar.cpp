@@ -20,8 +20,8 @@ constexpr float kPaperCover = 0.80f;
 /// All lengths in pixels. Text grows slower than the picture: on a large one small letters are read as well.
 struct Sizes {
   float text, label, bar, gap, tick, margin, pad, height;
-  explicit Sizes(const Image& image) {
-    const auto h = static_cast<float>(image.height);
+  explicit Sizes(int picture_height) {
+    const auto h = static_cast<float>(picture_height);
     text = std::max(6.0f, 6.5f + 0.0155f * h);
     label = 1.08f * text;
     bar = std::round(std::max(3.0f, 0.95f * text));
@@ -47,8 +47,8 @@ struct Layout {
   BarPlace bar;
 };
 
-Layout lay_out(const Image& image, const ColorBar& bar, float right) {
-  const Sizes s(image);
+Layout lay_out(int height, const ColorBar& bar, float right) {
+  const Sizes s(height);
   Layout l;
   l.ticks = nice_ticks(bar.low, bar.high, static_cast<int>(std::clamp(s.height / (2.6f * s.text), 2.0f, 7.0f)));
   l.title = bar.label;
@@ -60,7 +60,7 @@ Layout lay_out(const Image& image, const ColorBar& bar, float right) {
   l.right = right - s.margin;
   l.left = std::floor(l.right - content - 2 * s.pad);
   const float whole = s.height + title + 2 * s.pad;
-  l.top = std::round(0.5f * (static_cast<float>(image.height) - whole));
+  l.top = std::round(0.5f * (static_cast<float>(height) - whole));
   l.bottom = l.top + whole;
   l.bar.left = static_cast<int>(l.left + s.pad);
   l.bar.right = l.bar.left + static_cast<int>(s.bar);
@@ -90,7 +90,7 @@ void draw_panel(Image& image, const Layout& l, float radius) {
 }
 
 void draw(Image& image, const ColorBar& bar, const Layout& l) {
-  const Sizes s(image);
+  const Sizes s(image.height);
   draw_panel(image, l, 0.5f * s.text);
   const BarPlace& b = l.bar;
   const ColorMap& map = color_maps()[bar.map];
@@ -103,22 +103,22 @@ void draw(Image& image, const ColorBar& bar, const Layout& l) {
   for (std::size_t i = 0; i < l.ticks.values.size(); ++i) {
     const double t = (l.ticks.values[i] - bar.low) / (bar.high - bar.low);
     const float y = static_cast<float>(b.bottom) - static_cast<float>(t) * rows;
-    const int first = static_cast<int>(std::clamp(std::round(y - 0.5f * thick), static_cast<float>(b.top),
-                                                  static_cast<float>(b.bottom) - thick));
+    const int first = static_cast<int>(
+        std::clamp(std::round(y - 0.5f * thick), static_cast<float>(b.top), static_cast<float>(b.bottom) - thick));
     for (int row = first; row < first + static_cast<int>(thick); ++row)
       for (int x = b.right; x < b.right + static_cast<int>(s.tick); ++x) blend(image, x, row, kInk, 1);
     // A third of the letters' height below the middle: digits are then centred.
-    draw_text(image, l.ticks.labels[i], static_cast<float>(b.right) + s.tick + s.gap,
-              std::round(y + 0.32f * s.text), s.text, kInk);
+    draw_text(image, l.ticks.labels[i], static_cast<float>(b.right) + s.tick + s.gap, std::round(y + 0.32f * s.text),
+              s.text, kInk);
   }
   draw_text(image, l.title, l.left + s.pad, std::round(l.top + s.pad + 0.8f * s.label), s.label, kInk);
 }
 
-std::vector<Layout> layouts(const Image& image, std::span<const ColorBar> bars) {
+std::vector<Layout> layouts(int width, int height, std::span<const ColorBar> bars) {
   std::vector<Layout> all;
-  auto right = static_cast<float>(image.width);
+  auto right = static_cast<float>(width);
   for (const ColorBar& bar : bars) {
-    all.push_back(lay_out(image, bar, right));
+    all.push_back(lay_out(height, bar, right));
     right = all.back().left;
   }
   return all;
@@ -157,13 +157,17 @@ Ticks nice_ticks(double low, double high, int wanted) {
 }
 
 void draw_color_bars(Image& image, std::span<const ColorBar> bars) {
-  const std::vector<Layout> all = layouts(image, bars);
+  const std::vector<Layout> all = layouts(image.width, image.height, bars);
   for (std::size_t i = 0; i < all.size(); ++i) draw(image, bars[i], all[i]);
 }
 
-std::vector<BarPlace> color_bar_places(const Image& image, std::span<const ColorBar> bars) {
+int color_bars_width(int width, int height, std::span<const ColorBar> bars) {
+  return bars.empty() ? 0 : width - static_cast<int>(layouts(width, height, bars).back().left);
+}
+
+std::vector<BarPlace> color_bar_places(int width, int height, std::span<const ColorBar> bars) {
   std::vector<BarPlace> places;
-  for (const Layout& l : layouts(image, bars)) places.push_back(l.bar);
+  for (const Layout& l : layouts(width, height, bars)) places.push_back(l.bar);
   return places;
 }
 

@@ -129,7 +129,8 @@ void main() {
 #ifdef FIELD
   display = vec4(0);
   if (field) {
-    float light = clamp(dot(radiance, vec3(0.2126, 0.7152, 0.0722)), 0, 1);
+    // Never brighter than the map: light runs into 1, which it (nearly) is where the usual key light falls from above.
+    float light = min(1.18 * (1 - exp(-1.2 * dot(radiance, vec3(0.2126, 0.7152, 0.0722)))), 1);
     float shading = float((noted.z >> 8) & 255u) / 255;
     display = vec4(field_color(noted) * mix(1, light, shading), 1);
     result = vec4(0);

@@ -93,8 +93,7 @@ void draw_glyph(Image& image, int glyph, float x, float baseline, float scale, c
       const float cover = static_cast<float>(ink[static_cast<std::size_t>(j * width + i)]) / 255;
       std::uint8_t* out = image.pixel(px, py);
       for (int c = 0; c < 3; ++c)
-        out[c] = static_cast<std::uint8_t>(
-            std::lround(glm::mix(static_cast<float>(out[c]), 255 * srgb[c], cover)));
+        out[c] = static_cast<std::uint8_t>(std::lround(glm::mix(static_cast<float>(out[c]), 255 * srgb[c], cover)));
       out[3] = static_cast<std::uint8_t>(std::max<long>(out[3], std::lround(255 * cover)));
     }
 }

@@ -103,6 +103,9 @@ pins = [{ box = [[0, 0, 0], [1, 2, 3]], motion = [{ t = 1 }] }]
 [[cloth]]
 grid = {}
 pins = [{ vertices = [0], motion = [{ t = 1 }] }]
+[[field]]
+grid = {}
+fixed = [{ boundary = true }]
 [[collider]]
 motion = [{ t = 1 }]
 [[springs]]
