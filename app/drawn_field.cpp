@@ -22,16 +22,17 @@ FieldSurface::FieldSurface(const assets::Field& field, const ClothShape& shape)
   for (sim::Vec3& n : normals_) n.normalize();
 }
 
-std::vector<glm::vec3> FieldSurface::positions(const Eigen::VectorXd& value) const {
-  std::vector<glm::vec3> points;
-  points.reserve(rest_.size());
-  for (size_t i = 0; i < rest_.size(); ++i) {
-    if (normals_.empty())
-      points.push_back(to_glm(rest_[i]));
-    else
-      points.push_back(to_glm(sim::Vec3(rest_[i] + height_ * value(static_cast<Eigen::Index>(i)) * normals_[i])));
-  }
+std::vector<sim::Vec3> FieldSurface::points(const Eigen::VectorXd& value) const {
+  std::vector<sim::Vec3> points = rest_;
+  for (size_t i = 0; i < normals_.size(); ++i) points[i] += height_ * value(static_cast<Eigen::Index>(i)) * normals_[i];
   return points;
+}
+
+std::vector<glm::vec3> FieldSurface::positions(const Eigen::VectorXd& value) const {
+  std::vector<glm::vec3> positions;
+  positions.reserve(rest_.size());
+  for (const sim::Vec3& p : points(value)) positions.push_back(to_glm(p));
+  return positions;
 }
 
 void FieldRange::add(const Eigen::VectorXd& value) {

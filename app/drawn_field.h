@@ -18,6 +18,7 @@ class FieldSurface {
   FieldSurface(const assets::Field& field, const ClothShape& shape);
 
   /// Vertices at these values: rest + height value normal [m].
+  std::vector<sim::Vec3> points(const Eigen::VectorXd& value) const;
   std::vector<glm::vec3> positions(const Eigen::VectorXd& value) const;
 
  private:

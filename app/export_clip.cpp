@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "app/drawn_field.h"
 #include "app/interrupt.h"
 #include "assets/atomic_file.h"
 #include "assets/error.h"
@@ -40,6 +41,8 @@ struct ExportBody {
   const std::vector<sim::Tet>* tets = nullptr;
   const BallsAndRods* net = nullptr;  // exported as it is drawn
   std::vector<sim::Triangle> net_triangles = {};
+  int field = -1;                                   // its number, for a field
+  std::shared_ptr<FieldSurface> surface = nullptr;  // of a field: as it is drawn
 };
 
 std::vector<ExportBody> bodies_of(const assets::Scene& scene, const Shapes& shapes) {
@@ -74,6 +77,14 @@ std::vector<ExportBody> bodies_of(const assets::Scene& scene, const Shapes& shap
   }
   for (ExportBody& body : bodies)
     if (body.net) body.triangles = &body.net_triangles;
+  for (size_t i = 0; i < scene.fields.size(); ++i) {
+    const ClothShape& f = shapes.fields[i];
+    const int count = static_cast<int>(f.rest.vertices.size());
+    ExportBody body{file_stem(scene.fields[i].name, taken), 0, count, count, &f.rest.triangles};
+    body.field = static_cast<int>(i);
+    body.surface = std::make_shared<FieldSurface>(scene.fields[i], f);
+    bodies.push_back(std::move(body));
+  }
   return bodies;
 }
 
@@ -83,11 +94,14 @@ std::vector<Vec3> points(const Eigen::VectorXd& stacked, int first, int count) {
   return result;
 }
 
-/// What the surface of a body is made of.
-std::vector<Vec3> surface_points(const ExportBody& body, const Eigen::VectorXd& x) {
-  if (!body.net) return points(x, body.first, body.surface_count);
+std::span<const double> doubles(const Eigen::VectorXd& v) { return {v.data(), static_cast<size_t>(v.size())}; }
+
+/// What the surface of a body or field is made of.
+std::vector<Vec3> surface_points(const ExportBody& body, const CachedFrame& frame) {
+  if (body.surface) return body.surface->points(frame.fields.at(static_cast<size_t>(body.field)).value);
+  if (!body.net) return points(frame.state.x, body.first, body.surface_count);
   std::vector<Vec3> result;
-  for (const glm::vec3& p : body.net->positions(x, body.first)) result.emplace_back(p.x, p.y, p.z);
+  for (const glm::vec3& p : body.net->positions(frame.state.x, body.first)) result.emplace_back(p.x, p.y, p.z);
   return result;
 }
 
@@ -109,8 +123,15 @@ void export_clip(const assets::Scene& scene, const Shapes& shapes, const ClipCac
       const ExportBody& body = bodies[b];
       const std::string name = fmt::format("{}_{:04d}.{}", body.name, frames[f], format);
       if (format == "vtu") {
-        if (body.net) {
-          assets::write_vtu(folder / name, {surface_points(body, data->state.x), {}, *body.triangles, {}});
+        if (body.net || body.surface) {
+          const std::vector<Vec3> x = surface_points(body, *data);
+          assets::VtuFrame vtu{x, {}, *body.triangles, {}};
+          if (body.surface) {
+            const CachedField& field = data->fields.at(static_cast<size_t>(body.field));
+            vtu.values = doubles(field.value);
+            vtu.rates = doubles(field.rate);
+          }
+          assets::write_vtu(folder / name, vtu);
           series.push_back({data->state.t, name, static_cast<int>(b), body.name});
           continue;
         }
@@ -123,7 +144,7 @@ void export_clip(const assets::Scene& scene, const Shapes& shapes, const ClipCac
         series.push_back({data->state.t, name, static_cast<int>(b), body.name});
         continue;
       }
-      const std::vector<Vec3> x = surface_points(body, data->state.x);
+      const std::vector<Vec3> x = surface_points(body, *data);
       if (format == "ply") {
         assets::write_ply(folder / name, x, *body.triangles);
         continue;

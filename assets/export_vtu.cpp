@@ -71,9 +71,9 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 void write_vtu(const std::filesystem::path& file, const VtuFrame& frame) {
-  if (!frame.velocities.empty() && frame.velocities.size() != frame.vertices.size()) {
-    throw std::logic_error("write_vtu: one velocity per vertex, or none");
-  }
+  for (const std::size_t size : {frame.velocities.size(), frame.values.size(), frame.rates.size()})
+    if (size != 0 && size != frame.vertices.size())
+      throw std::logic_error("write_vtu: one velocity, value or rate per vertex, or none");
   Cells cells;
   cells.add(frame.tets, kVtkTetra);
   cells.add(frame.triangles, kVtkTriangle);
@@ -88,6 +88,13 @@ void write_vtu(const std::filesystem::path& file, const VtuFrame& frame) {
     xml += "      <PointData Vectors=\"velocity\">\n";
     xml += data.array("type=\"Float64\" Name=\"velocity\" NumberOfComponents=\"3\"", frame.velocities.data(),
                       frame.velocities.size_bytes());
+    xml += "      </PointData>\n";
+  }
+  if (!frame.values.empty()) {
+    xml += "      <PointData Scalars=\"value\">\n";
+    xml += data.array("type=\"Float64\" Name=\"value\"", frame.values.data(), frame.values.size_bytes());
+    if (!frame.rates.empty())
+      xml += data.array("type=\"Float64\" Name=\"rate\"", frame.rates.data(), frame.rates.size_bytes());
     xml += "      </PointData>\n";
   }
   xml += "      <Points>\n";

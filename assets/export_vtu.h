@@ -15,6 +15,8 @@ struct VtuFrame {
   std::span<const sim::Tet> tets;            ///< over vertices
   std::span<const sim::Triangle> triangles;  ///< over vertices
   std::span<const sim::Vec3> velocities;     ///< per vertex [m/s], or empty
+  std::span<const double> values = {};       ///< of a field, per vertex, as "value"; or empty
+  std::span<const double> rates = {};        ///< of a wave, per vertex, as "rate"; or empty
 };
 
 /// Doubles, 32-bit connectivity. Throws UserError(kOutput).

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
+#include <atomic>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace softreel::assets {
 namespace {
@@ -50,14 +53,12 @@ std::string fault_text(const mu::Parser::exception_type& error, const std::strin
   return fault_text(position, message);
 }
 
-}  // namespace
-
-struct Formula::Impl {
+/// muParser keeps the variables of a formula in one place, so that every thread needs one of its own.
+struct Evaluator {
   mu::Parser parser;
   double x = 0, y = 0, z = 0, t = 0;
-  bool uses_time = false, zero = false;
 
-  explicit Impl(const std::string& text) {
+  explicit Evaluator(const std::string& text) {
     parser.ClearConst();  // muParser calls them _pi and _e
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("e", std::numbers::e);
@@ -66,14 +67,20 @@ struct Formula::Impl {
     parser.DefineVar("z", &z);
     parser.DefineVar("t", &t);
     parser.SetExpr(text);
-    int results = 0;
-    const double* values = parser.Eval(results);
-    if (results != 1) throw std::invalid_argument(fmt::format("{} values separated by commas; one is needed", results));
-    const auto used = parser.GetUsedVar();
-    uses_time = used.contains("t");
-    zero = used.empty() && values[0] == 0;
   }
 };
+
+/// This thread's evaluator of a formula. They live as long as the thread: a scene has a handful.
+Evaluator& evaluator(std::uint64_t id, const std::string& text) {
+  thread_local std::vector<std::pair<std::uint64_t, std::unique_ptr<Evaluator>>> mine;
+  for (auto& [known, found] : mine)
+    if (known == id) return *found;
+  return *mine.emplace_back(id, std::make_unique<Evaluator>(text)).second;
+}
+
+std::atomic<std::uint64_t> next_id = 1;
+
+}  // namespace
 
 const char* formula_help() {
   return "numbers, x, y, z [m], t [s], pi, e, + - * / ^, brackets, < <= > >= == !=, && ||, a ? b : c, sin, cos, tan, "
@@ -97,23 +104,27 @@ std::optional<std::string> formula_fault(const std::string& text) {
   return std::nullopt;
 }
 
-Formula::Formula(const std::string& text) {
+Formula::Formula(const std::string& text) : text_(std::make_shared<const std::string>(text)), id_(next_id++) {
   try {
-    impl_ = std::make_shared<Impl>(text);
+    Evaluator first(text);
+    int results = 0;
+    const double* values = first.parser.Eval(results);
+    if (results != 1) throw std::invalid_argument(fmt::format("{} values separated by commas; one is needed", results));
+    const auto used = first.parser.GetUsedVar();
+    uses_time_ = used.contains("t");
+    zero_ = used.empty() && values[0] == 0;
   } catch (const mu::Parser::exception_type& error) {
     throw std::invalid_argument(fault_text(error, text));
   }
 }
 
 double Formula::operator()(const sim::Vec3& x, double t) const {
-  impl_->x = x.x();
-  impl_->y = x.y();
-  impl_->z = x.z();
-  impl_->t = t;
-  return impl_->parser.Eval();
+  Evaluator& e = evaluator(id_, *text_);
+  e.x = x.x();
+  e.y = x.y();
+  e.z = x.z();
+  e.t = t;
+  return e.parser.Eval();
 }
-
-bool Formula::uses_time() const { return impl_->uses_time; }
-bool Formula::is_zero() const { return impl_->zero; }
 
 }  // namespace softreel::assets

@@ -17,7 +17,7 @@ struct FloatImage {
   std::vector<glm::vec4> rgba;  ///< width * height
   /// What is drawn in the picture's own (display) linear colours, fields above all: width * height, premultiplied by
   /// its own alpha, or empty. The tone curve leaves it alone.
-  std::vector<glm::vec4> display;
+  std::vector<glm::vec4> display = {};
 };
 
 /// Khronos PBR Neutral tone curve (Khronos Group, "PBR Neutral Tone Mapper", 2024): colours below 0.76 stay as they are

@@ -83,11 +83,13 @@ ScalarMatrix assemble_mass(const TriangleMesh& mesh, FieldMass mass) {
 void assemble_load(const TriangleMesh& mesh, const FieldFunction& f, double t, Eigen::VectorXd& load) {
   load.setZero(static_cast<Eigen::Index>(mesh.vertices.size()));
   if (!f.value) return;
-  for (size_t e = 0; e < mesh.triangles.size(); ++e) {
-    const std::array<Vec3, 3> p = corners(mesh, static_cast<int>(e));
-    const double share = area_of(p) / 3 * f((p[0] + p[1] + p[2]) / 3, t);
-    for (int v : mesh.triangles[e]) load(v) += share;
-  }
+  std::vector<double> share(mesh.triangles.size());
+  parallel_for(static_cast<int>(share.size()), Work::kRow, [&](int e) {
+    const std::array<Vec3, 3> p = corners(mesh, e);
+    share[static_cast<size_t>(e)] = area_of(p) / 3 * f((p[0] + p[1] + p[2]) / 3, t);
+  });
+  for (size_t e = 0; e < share.size(); ++e)
+    for (int v : mesh.triangles[e]) load(v) += share[e];
 }
 
 void multiply(const ScalarMatrix& A, const Eigen::VectorXd& x, Eigen::VectorXd& y) {

@@ -16,7 +16,7 @@ namespace softreel::sim {
 
 using ScalarMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// A scalar over space [m] and time [s]; zero where `value` is empty.
+/// A scalar over space [m] and time [s]; zero where `value` is empty. Called by several threads at a time.
 struct FieldFunction {
   std::function<double(const Vec3& x, double t)> value;
   bool varies = false;  ///< with t

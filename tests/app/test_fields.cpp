@@ -61,15 +61,14 @@ TEST_CASE("a field is drawn in the colours of its values, with its bar; new colo
   for (const std::string set : {"field.skin.colormap=magma", "field.skin.height=0.5", "field.skin.range=[0, 1]",
                                 "field.skin.colorbar=false", "field.skin.label=u"}) {
     CAPTURE(set);
-    const auto again =
-        test::stats_of({"render", file.string(), "-o", (folder / "out").string(), "--set", set}, folder);
+    const auto again = test::stats_of({"render", file.string(), "-o", (folder / "out").string(), "--set", set}, folder);
     CHECK(again.at("frames_simulated") == 0);
     CHECK(again.at("frames_rendered") == 6);
     CHECK(test::pictures_in(folder / "out") != before);
   }
-  CHECK(test::stats_of({"render", file.string(), "-o", (folder / "out").string(), "--set", "field.skin.source=2"},
-                       folder)
-            .at("frames_simulated") == 6);
+  CHECK(
+      test::stats_of({"render", file.string(), "-o", (folder / "out").string(), "--set", "field.skin.source=2"}, folder)
+          .at("frames_simulated") == 6);
 }
 
 TEST_CASE("bodies and fields share a scene; each goes as it goes alone") {
@@ -92,6 +91,20 @@ TEST_CASE("bodies and fields share a scene; each goes as it goes alone") {
   CHECK(without->fields.empty());
 }
 
+TEST_CASE("fields are exported with their values, displaced as they are drawn") {
+  test::TempFolder folder;
+  const auto file = folder.write("scene.toml", scene("leapfrog", kWave + kHeat));
+  CHECK(test::run({"simulate", file.string(), "-o", (folder / "bad").string()}).code == 2);  // heat takes no leapfrog
+  const auto good = folder.write("wave.toml", scene("leapfrog", kWave));
+  REQUIRE(test::run({"simulate", good.string(), "-o", (folder / "out").string(), "--export", "vtu"}).code == 0);
+  const std::string vtu = test::slurp(folder / "out/export/water_0001.vtu");
+  CHECK(test::contains(vtu, "Name=\"value\""));
+  CHECK(test::contains(vtu, "Name=\"rate\""));
+  CHECK_FALSE(test::contains(vtu, "velocity"));
+  REQUIRE(test::run({"simulate", good.string(), "-o", (folder / "out").string(), "--export", "ply"}).code == 0);
+  CHECK(std::filesystem::exists(folder / "out/export/water_0006.ply"));
+}
+
 TEST_CASE("the bill of a field alone has no body in it, and that of a body no field") {
   test::TempFolder folder;
   const auto file = folder.write("scene.toml", scene("implicit-euler", kHeat));
@@ -110,7 +123,8 @@ TEST_CASE("the bill of a field alone has no body in it, and that of a body no fi
 
 TEST_CASE("a step that is too long for an explicit method is refused before the run, with one that holds") {
   test::TempFolder folder;
-  const std::string stiff = "[[field]]\nname = \"drum\"\nequation = \"wave\"\ngrid = { cells = [12, 12] }\nspeed = 50\n";
+  const std::string stiff =
+      "[[field]]\nname = \"drum\"\nequation = \"wave\"\ngrid = { cells = [12, 12] }\nspeed = 50\n";
   const auto file = folder.write("scene.toml", scene("leapfrog", stiff));
   const test::RunResult refused = test::run({"simulate", file.string(), "-o", (folder / "out").string()});
   CHECK(refused.code == 2);
@@ -135,7 +149,8 @@ TEST_CASE("what only the mesh shows to be wrong with a field is a user's mistake
   const std::string grid = "[[field]]\ngrid = { cells = [4, 4] }\n";
   for (const Wrong& wrong :
        {Wrong{grid + "fixed = [{ box = [[5, 5, 5], [6, 6, 6]] }]\n", "holds no vertex"},
-        Wrong{grid + "fixed = [{ boundary = true, value = \"1/(x+0.5)\" }]\n", "has no finite value at (-0.5, 0, -0.5)"},
+        Wrong{grid + "fixed = [{ boundary = true, value = \"1/(x+0.5)\" }]\n",
+              "has no finite value at (-0.5, 0, -0.5)"},
         Wrong{grid + "source = \"ln(x)\"\nfixed = [{ boundary = true }]\n", "source has no finite value"}}) {
     const auto file = folder.write("scene.toml", scene("implicit-euler", wrong.field));
     const test::RunResult result = test::run({"simulate", file.string(), "-o", (folder / "out").string()});

@@ -85,31 +85,31 @@ fixed = [{ boundary = true }]
 colorbar = false
 )");
   REQUIRE(scene.fields.size() == 2);
-  const Field& heat = scene.fields[0];
-  CHECK(heat.name == "field-1");
-  CHECK(heat.equation == "heat");
-  CHECK(heat.diffusivity == 0.1);
-  CHECK(heat.source == "x*t");
-  CHECK(heat.initial == "20");
-  REQUIRE(heat.fixed.size() == 2);
-  CHECK(heat.fixed[0].boundary);
-  CHECK(heat.fixed[0].value == "1.5");
-  CHECK(heat.fixed[1].box);
-  CHECK(heat.fixed[1].value == "sin(t)");
-  CHECK(heat.colormap == ColorMap::kInferno);
-  CHECK((*heat.range)[1] == 100);
-  CHECK(heat.colorbar);
-  const Field& skin = scene.fields[1];
-  CHECK(skin.equation == "poisson");
-  CHECK(skin.fixed[0].value == "0");
-  CHECK(!skin.range);
-  CHECK(!skin.colorbar);
-  CHECK(scene.soft.empty());
-  CHECK(scene.assets.size() == 1);
-  CHECK(scene.assets[0].physics);
-  CHECK(parse("[[field]]\ngrid = {}\nfixed = [{ boundary = true }]\n", {"field.field-1.source=sin(x)"})
-            .fields[0]
-            .source == "sin(x)");
+const Field& heat = scene.fields[0];
+CHECK(heat.name == "field-1");
+CHECK(heat.equation == "heat");
+CHECK(heat.diffusivity == 0.1);
+CHECK(heat.source == "x*t");
+CHECK(heat.initial == "20");
+REQUIRE(heat.fixed.size() == 2);
+CHECK(heat.fixed[0].boundary);
+CHECK(heat.fixed[0].value == "1.5");
+CHECK(heat.fixed[1].box);
+CHECK(heat.fixed[1].value == "sin(t)");
+CHECK(heat.colormap == ColorMap::kInferno);
+CHECK((*heat.range)[1] == 100);
+CHECK(heat.colorbar);
+const Field& skin = scene.fields[1];
+CHECK(skin.equation == "poisson");
+CHECK(skin.fixed[0].value == "0");
+CHECK(!skin.range);
+CHECK(!skin.colorbar);
+CHECK(scene.soft.empty());
+CHECK(scene.assets.size() == 1);
+CHECK(scene.assets[0].physics);
+CHECK(
+    parse("[[field]]\ngrid = {}\nfixed = [{ boundary = true }]\n", {"field.field-1.source=sin(x)"}).fields[0].source ==
+    "sin(x)");
 }
 
 TEST_CASE("a mistake in a field is reported where it stands") {

@@ -104,7 +104,8 @@ TEST_CASE("a field has the very colours of its map in the picture, whatever ligh
 }
 
 TEST_CASE("shading darkens a field where light is missing, and never brightens it") {
-  const Image flat = ramp("viridis", 1, 0, true), dark = ramp("viridis", 1, 1, false), half = ramp("viridis", 1, 0.5f, true);
+  const Image flat = ramp("viridis", 1, 0, true), dark = ramp("viridis", 1, 1, false),
+              half = ramp("viridis", 1, 0.5f, true);
   for (int x = 2; x < 62; ++x)
     for (int c = 0; c < 3; ++c) {
       CHECK(dark.pixel(x, 32)[c] == 0);
