@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
+#include <algorithm>
 #include <atomic>
 #include <numbers>
 #include <stdexcept>
@@ -32,7 +33,7 @@ std::string fault_text(int position, const std::string& what) {
 }
 
 std::string fault_text(const mu::Parser::exception_type& error, const std::string& text) {
-  const int position = error.GetPos();
+  const int position = std::min(error.GetPos(), static_cast<int>(text.size()));
   std::string token = error.GetToken();
   token.erase(token.find_last_not_of(" \t\n") + 1);
   switch (error.GetCode()) {

@@ -138,8 +138,14 @@ Ticks nice_ticks(double low, double high, int wanted) {
     factor = 1;
     ++power;
   }
-  const double step = factor * std::pow(10.0, power);
   const double slack = 1e-9 * (high - low);
+  double step = 0;
+  const auto count = [&] { return std::floor((high + slack) / step) - std::ceil((low - slack) / step) + 1; };
+  for (step = factor * std::pow(10.0, power); count() < 2; step = factor * std::pow(10.0, power)) {
+    // One number says nothing about the scale.
+    power -= factor == 1;
+    factor = factor == 1 ? 5 : factor / 2;
+  }
   const double largest = std::max(std::abs(low), std::abs(high));
   const int magnitude = static_cast<int>(std::floor(std::log10(largest)));
   const int common = magnitude >= 5 || magnitude < -2 ? magnitude : 0;

@@ -64,7 +64,7 @@ TEST_CASE("every function that the help names is there") {
 }
 
 TEST_CASE("a field is read as it is written") {
-  const Scene scene = parse(R"(
+  const Scene scene = parse(R"toml(
 [time]
 integrator = "rk4"
 [[field]]
@@ -83,33 +83,33 @@ name = "skin"
 mesh = "skin.obj"
 fixed = [{ boundary = true }]
 colorbar = false
-)");
+)toml");
   REQUIRE(scene.fields.size() == 2);
-const Field& heat = scene.fields[0];
-CHECK(heat.name == "field-1");
-CHECK(heat.equation == "heat");
-CHECK(heat.diffusivity == 0.1);
-CHECK(heat.source == "x*t");
-CHECK(heat.initial == "20");
-REQUIRE(heat.fixed.size() == 2);
-CHECK(heat.fixed[0].boundary);
-CHECK(heat.fixed[0].value == "1.5");
-CHECK(heat.fixed[1].box);
-CHECK(heat.fixed[1].value == "sin(t)");
-CHECK(heat.colormap == ColorMap::kInferno);
-CHECK((*heat.range)[1] == 100);
-CHECK(heat.colorbar);
-const Field& skin = scene.fields[1];
-CHECK(skin.equation == "poisson");
-CHECK(skin.fixed[0].value == "0");
-CHECK(!skin.range);
-CHECK(!skin.colorbar);
-CHECK(scene.soft.empty());
-CHECK(scene.assets.size() == 1);
-CHECK(scene.assets[0].physics);
-CHECK(
-    parse("[[field]]\ngrid = {}\nfixed = [{ boundary = true }]\n", {"field.field-1.source=sin(x)"}).fields[0].source ==
-    "sin(x)");
+  const Field& heat = scene.fields[0];
+  CHECK(heat.name == "field-1");
+  CHECK(heat.equation == "heat");
+  CHECK(heat.diffusivity == 0.1);
+  CHECK(heat.source == "x*t");
+  CHECK(heat.initial == "20");
+  REQUIRE(heat.fixed.size() == 2);
+  CHECK(heat.fixed[0].boundary);
+  CHECK(heat.fixed[0].value == "1.5");
+  CHECK(heat.fixed[1].box);
+  CHECK(heat.fixed[1].value == "sin(t)");
+  CHECK(heat.colormap == ColorMap::kInferno);
+  CHECK((*heat.range)[1] == 100);
+  CHECK(heat.colorbar);
+  const Field& skin = scene.fields[1];
+  CHECK(skin.equation == "poisson");
+  CHECK(skin.fixed[0].value == "0");
+  CHECK(!skin.range);
+  CHECK(!skin.colorbar);
+  CHECK(scene.soft.empty());
+  CHECK(scene.assets.size() == 1);
+  CHECK(scene.assets[0].physics);
+  CHECK(parse("[[field]]\ngrid = {}\nfixed = [{ boundary = true }]\n", {"field.field-1.source=sin(x)"})
+            .fields[0]
+            .source == "sin(x)");
 }
 
 TEST_CASE("a mistake in a field is reported where it stands") {
@@ -121,7 +121,7 @@ TEST_CASE("a mistake in a field is reported where it stands") {
   const Wrong wrongs[] = {
       {"[[field]]\nequation = 'heat'", 1, 0, "has no shape; add mesh = \"FILE\" or grid"},
       {"[[field]]\ngrid = {}", 1, 0, "poisson needs a value somewhere"},
-      {"[[field]]\nequation = 'heet'\ngrid = {}", 2, 12, "did you mean \"heat\"?"},
+      {"[[field]]\nequation = 'heet'\ngrid = {}\nfixed = [{ boundary = true }]", 2, 12, "did you mean \"heat\"?"},
       {"[[field]]\nequation = 'heat'\ngrid = {}\nsource = 'sin(q)'", 4, 10, "at character 5: \"q\" is unknown"},
       {"[[field]]\nequation = 'heat'\ngrid = {}\nsource = true", 4, 10, "a formula in x, y, z, t"},
       {"[[field]]\nequation = 'heat'\ngrid = {}\nspeed = 2", 4, 9, "is for equation = \"wave\""},

@@ -166,7 +166,7 @@ TEST_CASE("The shipped meshes bound solids that become well-shaped tetrahedra" *
   const std::filesystem::path folder = std::filesystem::path(SOFTREEL_SOURCE_DIR) / "assets/meshes";
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".obj") continue;
+    if (entry.path().extension() != ".obj" || entry.path().stem() == "disc") continue;  // the disc is a sheet
     ++count;
     CHECK(entry.file_size() < 500000);
     const auto surface = assets::import_surface(entry.path());

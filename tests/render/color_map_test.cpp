@@ -13,6 +13,8 @@ using namespace softreel::render;
 
 namespace {
 
+constexpr int kSide = 256;
+
 int distance(const std::uint8_t* pixel, const glm::vec3& srgb) {
   int most = 0;
   for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(pixel[c] - static_cast<int>(std::lround(255 * srgb[c]))));
@@ -21,7 +23,7 @@ int distance(const std::uint8_t* pixel, const glm::vec3& srgb) {
 
 /// A square of 1 m seen from above, fills the picture; its value runs from 0 at the left edge to 1 at the right.
 Image ramp(const char* map, float exposure, float shading, bool lit) {
-  Renderer renderer({.width = 64, .height = 64, .samples = 2});
+  Renderer renderer({.width = kSide, .height = kSide, .samples = 2});
   Shape plane = make_plane(1, 1);
   Look look;
   look.two_sided = true;
@@ -95,9 +97,10 @@ TEST_CASE("a field has the very colours of its map in the picture, whatever ligh
   for (const ColorMap& map : color_maps()) {
     CAPTURE(map.name);
     const Image picture = ramp(map.name.data(), 1, 0, true);
-    for (int x = 2; x < 62; ++x)
-      // The mean of a pixel's values, and of two sub-pixel offsets: two levels.
-      CHECK(distance(picture.pixel(x, 32), color_at(map, (static_cast<float>(x) + 0.5f) / 64)) <= 2);
+    for (int x = 2; x < kSide - 2; ++x)
+      // Two sub-pixel offsets stand for the pixel: a quarter of one, in which no map runs over more than a level, and
+      // one for the texel and for rounding.
+      CHECK(distance(picture.pixel(x, kSide / 2), color_at(map, (static_cast<float>(x) + 0.5f) / kSide)) <= 2);
     CHECK(ramp(map.name.data(), 8, 0, true) == picture);
     CHECK(ramp(map.name.data(), 1, 0, false) == picture);
   }
@@ -106,10 +109,10 @@ TEST_CASE("a field has the very colours of its map in the picture, whatever ligh
 TEST_CASE("shading darkens a field where light is missing, and never brightens it") {
   const Image flat = ramp("viridis", 1, 0, true), dark = ramp("viridis", 1, 1, false),
               half = ramp("viridis", 1, 0.5f, true);
-  for (int x = 2; x < 62; ++x)
+  for (int x = 2; x < kSide - 2; ++x)
     for (int c = 0; c < 3; ++c) {
-      CHECK(dark.pixel(x, 32)[c] == 0);
-      CHECK(half.pixel(x, 32)[c] <= flat.pixel(x, 32)[c]);
+      CHECK(dark.pixel(x, kSide / 2)[c] == 0);
+      CHECK(half.pixel(x, kSide / 2)[c] <= flat.pixel(x, kSide / 2)[c]);
     }
   CHECK(half != flat);
 }
