@@ -93,7 +93,7 @@ std::vector<sim::Field> build_fields(const assets::Scene& scene, const Shapes& s
     p.mesh = shapes.fields[i].rest;
     p.diffusivity = f.diffusivity;
     p.speed = f.speed;
-    p.mass = f.mass == assets::FieldMass::kLumped ? sim::FieldMass::kLumped : sim::FieldMass::kConsistent;
+    p.mass = f.mass == assets::MassModel::kLumped ? sim::FieldMass::kLumped : sim::FieldMass::kConsistent;
     p.source = function_of(scene, f, "source", f.source);
     p.initial = function_of(scene, f, "initial", f.initial);
     p.initial_rate = function_of(scene, f, "initial_rate", f.initial_rate);

@@ -18,6 +18,7 @@ std::span<const MethodGroup> method_groups() {
       MethodGroup{"solver.preconditioner", "preconditioners", sim::preconditioners()},
       MethodGroup{"soft.material.model", "materials of solids", sim::solid_materials()},
       MethodGroup{"cloth.material.model", "materials of membranes", sim::membrane_materials()},
+      MethodGroup{"field.equation", "equations of fields", sim::field_equations()},
   };
   return groups;
 }

@@ -155,8 +155,12 @@ Shapes load_shapes(const assets::Scene& scene, const std::filesystem::path& cach
   for (const assets::SoftBody& soft : scene.soft) shapes.soft.push_back(load_solid(scene, soft, cache_folder, shapes));
   for (const assets::Cloth& cloth : scene.cloth) shapes.cloth.push_back(load_sheet(scene, cloth, shapes));
   for (const assets::SpringBody& body : scene.springs) shapes.springs.push_back(load_springs(body, shapes));
-  for (const assets::Field& field : scene.fields) shapes.fields.push_back(load_sheet(scene, field, shapes));
+  load_fields(scene, shapes);
   return shapes;
+}
+
+void load_fields(const assets::Scene& scene, Shapes& shapes) {
+  for (const assets::Field& field : scene.fields) shapes.fields.push_back(load_sheet(scene, field, shapes));
 }
 
 }  // namespace softreel::app

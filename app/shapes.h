@@ -49,6 +49,9 @@ struct Shapes {
 /// Loads, places and tetrahedralizes. `cache_folder`: for tetrahedra, empty for none. Throws UserError.
 Shapes load_shapes(const assets::Scene& scene, const std::filesystem::path& cache_folder);
 
+/// Only those of the fields.
+void load_fields(const assets::Scene& scene, Shapes& shapes);
+
 /// Mesh options of a scene's mesh source.
 assets::MeshOptions mesh_options(const assets::MeshSource& source);
 

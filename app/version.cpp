@@ -32,6 +32,7 @@ std::string version_text() {
   line("assimp", assets::assimp_version());
   line("TetGen", assets::has_tetgen() ? "1.5" : "left out of this build");
   line("toml++", assets::toml_version());
+  line("muParser", assets::muparser_version());
   line("GLM", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH));
   line("fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
   line("json",

@@ -29,7 +29,6 @@ enum class UpAxis { kX, kY, kZ };
 enum class ColliderShape { kPlane, kSphere, kBox, kCapsule };
 enum class LightKind { kArea, kSun };
 enum class GroundMode { kAuto, kOn, kOff };
-enum class FieldMass { kLumped, kConsistent };
 enum class ColorMap { kViridis, kInferno, kMagma, kCoolwarm };
 
 struct Time {
@@ -276,7 +275,7 @@ struct Field {
   Transform transform;
   double diffusivity = 1;  ///< of heat [m^2/s]
   double speed = 1;        ///< of a wave [m/s]
-  FieldMass mass = FieldMass::kLumped;
+  MassModel mass = MassModel::kLumped;
   std::string source = "0";        ///< a number, or a formula; so are the next two
   std::string initial = "0";       ///< at t = 0
   std::string initial_rate = "0";  ///< of a wave at t = 0 [1/s]

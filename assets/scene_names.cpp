@@ -16,7 +16,6 @@ constexpr Array<3> kUpAxis = {"x", "y", "z"};
 constexpr Array<4> kColliderShape = {"plane", "sphere", "box", "capsule"};
 constexpr Array<2> kLightKind = {"area", "sun"};
 constexpr Array<3> kGroundMode = {"auto", "on", "off"};
-constexpr Array<2> kFieldMass = {"lumped", "consistent"};
 constexpr Array<4> kColorMap = {"viridis", "inferno", "magma", "coolwarm"};
 }  // namespace
 
@@ -28,7 +27,6 @@ Names names_of(UpAxis) { return kUpAxis; }
 Names names_of(ColliderShape) { return kColliderShape; }
 Names names_of(LightKind) { return kLightKind; }
 Names names_of(GroundMode) { return kGroundMode; }
-Names names_of(FieldMass) { return kFieldMass; }
 Names names_of(ColorMap) { return kColorMap; }
 
 }  // namespace softreel::assets

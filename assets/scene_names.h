@@ -17,7 +17,6 @@ Names names_of(UpAxis);
 Names names_of(ColliderShape);
 Names names_of(LightKind);
 Names names_of(GroundMode);
-Names names_of(FieldMass);
 Names names_of(ColorMap);
 
 /// "implicit-euler"

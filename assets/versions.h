@@ -5,6 +5,7 @@
 namespace softreel::assets {
 
 std::string assimp_version();
+std::string muparser_version();
 std::string toml_version();
 
 }  // namespace softreel::assets

@@ -133,6 +133,9 @@ TEST_CASE("a step that is too long for an explicit method is refused before the 
   REQUIRE(at != std::string::npos);
   const int substeps = std::atoi(refused.err.c_str() + at + 16);
   CHECK(substeps > 4);
+  const test::RunResult check = test::run({"check", file.string()});
+  CHECK(check.code == 2);
+  CHECK(check.err == refused.err);
   const std::string set = "time.substeps=" + std::to_string(substeps);
   CHECK(test::run({"simulate", file.string(), "-o", (folder / "out").string(), "--set", set}).code == 0);
   CHECK(test::run({"simulate", file.string(), "-o", (folder / "out").string(), "--set",

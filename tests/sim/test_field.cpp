@@ -309,68 +309,76 @@ TEST_CASE("maximum principle: on right-angled triangles poisson and implicit hea
 TEST_CASE("heat decays as exp(-2 pi^2 k t), with order 2 in the mesh") {
   // The mode decays at (almost) the lowest eigenvalue of the mesh; the steps in time are short enough to be out of
   // sight: implicit Euler's own error, half of h lambda relative, is taken off by Richardson's extrapolation.
-  double coarse = 0;
-  for (int cells = 8; cells <= 32; cells *= 2) {
-    FieldProblem p = standing_mode("heat", square(cells));
-    p.diffusivity = 0.3;
-    const double rate = 2 * kPi * kPi * p.diffusivity, t = 0.5 / rate;
-    const auto middle_after = [&](int steps) {
-      Field field(p, "implicit-euler");
-      must_step(field, t / steps, steps);
-      return field.value().dot(field.mass() * field.value());
-    };
-    const Field start(p, "implicit-euler");
-    const double ratio = (2 * middle_after(400) - middle_after(200)) / start.value().dot(start.mass() * start.value());
-    const double error = std::abs(-std::log(ratio) / (2 * rate * t) - 1);
-    MESSAGE(cells << " cells: relative error of the decay rate " << error);
-    // Linear elements: of the order of (pi/cells)^2 (Strang, Fix 1973, section 6.3).
-    CHECK(error < std::pow(kPi / cells, 2));
-    if (cells > 8) CHECK(order_of(coarse, error) == doctest::Approx(2).epsilon(0.05));
-    coarse = error;
+  for (const FieldMass mass : {FieldMass::kLumped, FieldMass::kConsistent}) {
+    double coarse = 0;
+    for (int cells = 8; cells <= 32; cells *= 2) {
+      FieldProblem p = standing_mode("heat", square(cells));
+      p.diffusivity = 0.3;
+      p.mass = mass;
+      const double rate = 2 * kPi * kPi * p.diffusivity, t = 0.5 / rate;
+      const auto middle_after = [&](int steps) {
+        Field field(p, "implicit-euler");
+        must_step(field, t / steps, steps);
+        return field.value().dot(field.mass() * field.value());
+      };
+      const Field start(p, "implicit-euler");
+      const double ratio =
+          (2 * middle_after(400) - middle_after(200)) / start.value().dot(start.mass() * start.value());
+      const double error = std::abs(-std::log(ratio) / (2 * rate * t) - 1);
+      MESSAGE((mass == FieldMass::kLumped ? "lumped, " : "consistent, ")
+              << cells << " cells: relative error of the decay rate " << error);
+      // Linear elements: of the order of (pi/cells)^2 (Strang, Fix 1973, section 6.3).
+      CHECK(error < std::pow(kPi / cells, 2));
+      if (cells > 8) CHECK(order_of(coarse, error) == doctest::Approx(2).epsilon(0.05));
+      coarse = error;
+    }
   }
 }
 
 TEST_CASE("every integrator of heat and wave has its order, against the exact solution on the same mesh") {
-  for (const std::string equation : {"heat", "wave"}) {
-    const FieldProblem p = [&] {
-      FieldProblem made = standing_mode(equation, uneven_square(6));
-      made.diffusivity = 0.1;
-      made.speed = 0.7;
-      return made;
-    }();
-    for (const MethodInfo& info : field_integrators(equation)) {
-      const std::string name(info.name);
-      CAPTURE(equation);
-      CAPTURE(name);
-      const SemiDiscrete exact(Field(p, name));
-      const double factor = equation == "heat" ? p.diffusivity : p.speed * p.speed;
-      // Long enough for a good part of a period of the slowest mode, steps well inside of every limit.
-      const double t = equation == "heat" ? 0.3 : 1.0;
-      const auto worst_error = [&](int steps) {
-        Field field(p, name);
-        double worst = 0;
-        for (int i = 1; i <= steps; ++i) {
-          must_step(field, t / steps, 1);
-          const double now = t * i / steps;
-          const Eigen::VectorXd u = exact.at([&](double lambda) {
-            return equation == "heat" ? std::exp(-factor * lambda * now) : std::cos(std::sqrt(factor * lambda) * now);
-          });
-          worst = std::max(worst, (field.value()(exact.free()) - u).norm());
-          if (equation == "heat") continue;
-          const Eigen::VectorXd v = exact.at([&](double lambda) {
-            const double omega = std::sqrt(factor * lambda);
-            return -omega * std::sin(omega * now);
-          });
-          worst = std::max(worst, (field.rate()(exact.free()) - v).norm());
-        }
-        return worst;
-      };
-      const int steps = info.order >= 4 ? 100 : 400;
-      const double order = order_of(worst_error(steps), worst_error(2 * steps));
-      MESSAGE(equation << ", " << name << ": order " << order);
-      CHECK(std::abs(order - info.order) < 0.1);
+  for (const FieldMass mass : {FieldMass::kLumped, FieldMass::kConsistent})
+    for (const std::string equation : {"heat", "wave"}) {
+      const FieldProblem p = [&] {
+        FieldProblem made = standing_mode(equation, uneven_square(6));
+        made.diffusivity = 0.1;
+        made.speed = 0.7;
+        made.mass = mass;
+        return made;
+      }();
+      for (const MethodInfo& info : field_integrators(equation)) {
+        const std::string name(info.name);
+        CAPTURE(equation);
+        CAPTURE(name);
+        const SemiDiscrete exact(Field(p, name));
+        const double factor = equation == "heat" ? p.diffusivity : p.speed * p.speed;
+        // Long enough for a good part of a period of the slowest mode, steps well inside of every limit.
+        const double t = equation == "heat" ? 0.3 : 1.0;
+        const auto worst_error = [&](int steps) {
+          Field field(p, name);
+          double worst = 0;
+          for (int i = 1; i <= steps; ++i) {
+            must_step(field, t / steps, 1);
+            const double now = t * i / steps;
+            const Eigen::VectorXd u = exact.at([&](double lambda) {
+              return equation == "heat" ? std::exp(-factor * lambda * now) : std::cos(std::sqrt(factor * lambda) * now);
+            });
+            worst = std::max(worst, (field.value()(exact.free()) - u).norm());
+            if (equation == "heat") continue;
+            const Eigen::VectorXd v = exact.at([&](double lambda) {
+              const double omega = std::sqrt(factor * lambda);
+              return -omega * std::sin(omega * now);
+            });
+            worst = std::max(worst, (field.rate()(exact.free()) - v).norm());
+          }
+          return worst;
+        };
+        const int steps = info.order >= 4 ? 100 : 400;
+        const double order = order_of(worst_error(steps), worst_error(2 * steps));
+        MESSAGE((mass == FieldMass::kLumped ? "lumped " : "consistent ")
+                << equation << ", " << name << ": order " << order);
+        CHECK(std::abs(order - info.order) < 0.1);
+      }
     }
-  }
 }
 
 TEST_CASE("a closed sphere rings at l(l+1), with order 2 in the mesh") {
