@@ -325,7 +325,7 @@ TEST_CASE("heat decays as exp(-2 pi^2 k t), with order 2 in the mesh") {
       const double ratio =
           (2 * middle_after(400) - middle_after(200)) / start.value().dot(start.mass() * start.value());
       const double error = std::abs(-std::log(ratio) / (2 * rate * t) - 1);
-      MESSAGE((mass == FieldMass::kLumped ? "lumped, " : "consistent, ")
+      MESSAGE(std::string(mass == FieldMass::kLumped ? "lumped, " : "consistent, ")
               << cells << " cells: relative error of the decay rate " << error);
       // Linear elements: of the order of (pi/cells)^2 (Strang, Fix 1973, section 6.3).
       CHECK(error < std::pow(kPi / cells, 2));
@@ -372,9 +372,10 @@ TEST_CASE("every integrator of heat and wave has its order, against the exact so
           }
           return worst;
         };
-        const int steps = info.order >= 4 ? 100 : 400;
+        // Consistent mass makes the fastest modes twice as fast.
+        const int steps = (info.order >= 4 ? 100 : 400) * (mass == FieldMass::kConsistent ? 4 : 1);
         const double order = order_of(worst_error(steps), worst_error(2 * steps));
-        MESSAGE((mass == FieldMass::kLumped ? "lumped " : "consistent ")
+        MESSAGE(std::string(mass == FieldMass::kLumped ? "lumped " : "consistent ")
                 << equation << ", " << name << ": order " << order);
         CHECK(std::abs(order - info.order) < 0.1);
       }

@@ -76,8 +76,7 @@ TEST_CASE("steps from 0.002 s to 2 s on a twisting bar stay finite, and each low
     const auto objective = [&](const State& before, const Eigen::VectorXd& y) {
       double phi = 0;
       for (int i = 0; i < s.model().vertices(); ++i)
-        phi += 0.5 * s.model().masses(i) *
-               (y - before.x - h * before.v).segment<3>(3 * i).squaredNorm();
+        phi += 0.5 * s.model().masses(i) * (y - before.x - h * before.v).segment<3>(3 * i).squaredNorm();
       for (const auto& term : s.model().potentials) phi += h * h * term->value(y);
       return phi;
     };
@@ -137,8 +136,7 @@ TEST_CASE("a 100 x 100 cloth of stiff fabric hangs from two corners at steps of 
   const TriangleMesh sheet = grid_sheet(1, 1, 100, 100);
   ModelBuilder builder;
   builder.add_membrane("fabric", sheet, {"stvk", 1e7, 0.3, 5e-4, 1e-4, BendingModel::kAuto, 0.15});
-  builder.add_pin(
-      pin_where(sheet.vertices, [](const Vec3& p) { return p.z() < -0.4999 && std::abs(p.x()) > 0.4999; }));
+  builder.add_pin(pin_where(sheet.vertices, [](const Vec3& p) { return p.z() < -0.4999 && std::abs(p.x()) > 0.4999; }));
   Simulation s(builder.finish(Vec3(0, -9.81, 0), {}, {}, {}), {"implicit-euler", "auto", {}, 6});
   long iterations = 0, retries = 0;
   for (int i = 0; i < 30; ++i) {

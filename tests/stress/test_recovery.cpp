@@ -55,7 +55,8 @@ Model body(const std::string& material, double poisson, int kind, unsigned seed)
 Eigen::VectorXd rest_positions() {
   const TetMesh mesh = cube();
   Eigen::VectorXd rest(3 * static_cast<Eigen::Index>(mesh.vertices.size()));
-  for (size_t i = 0; i < mesh.vertices.size(); ++i) rest.segment<3>(3 * static_cast<Eigen::Index>(i)) = mesh.vertices[i];
+  for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    rest.segment<3>(3 * static_cast<Eigen::Index>(i)) = mesh.vertices[i];
   return rest;
 }
 
