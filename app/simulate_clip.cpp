@@ -37,7 +37,7 @@ namespace {
 class World {
  public:
   World(const assets::Scene& scene, const Shapes& shapes) : scene_(scene), fields_(build_fields(scene, shapes)) {
-    if (!scene.soft.empty() || !scene.cloth.empty())
+    if (!scene.soft.empty() || !scene.cloth.empty() || !scene.springs.empty())
       bodies_ = std::make_unique<sim::Simulation>(build_model(scene, shapes), simulation_settings(scene));
   }
 

@@ -1,6 +1,6 @@
 // The table: every key of a scene file. To add one, add a line here (and a rule in scene_rules.cpp, if it depends on
-// another key). Bodies and colliders are in scene_keys_bodies.cpp, fields in scene_keys_fields.cpp, what acts on bodies in
-// scene_keys_forces.cpp.
+// another key). Bodies and colliders are in scene_keys_bodies.cpp, fields in scene_keys_fields.cpp, what acts on bodies
+// in scene_keys_forces.cpp.
 #include "assets/scene_limits.h"
 #include "assets/scene_rules.h"
 #include "assets/scene_walk.h"

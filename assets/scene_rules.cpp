@@ -48,7 +48,8 @@ void note_poisson(KeyVisitor& v, const sim::MaterialTraits& traits, const std::s
 // have their own.
 void check_names(KeyVisitor& v, const Scene& scene) {
   std::map<std::string, std::string> first;  // name -> where it was first used
-  const auto collect = [&](const auto& things, const char* kind, const char* whose = "every body, field and collider needs") {
+  const auto collect = [&](const auto& things, const char* kind,
+                           const char* whose = "every body, field and collider needs") {
     for (size_t i = 0; i < things.size(); ++i) {
       const std::string place = fmt::format("{}.{}", kind, i + 1);
       const bool given = !things[i].name.empty();
