@@ -62,6 +62,8 @@ void ConvergenceTest::start(const Eigen::VectorXd& y, const Eigen::VectorXd& g) 
 }
 
 void ConvergenceTest::see_hessian(const BlockMatrix& H, const Eigen::VectorXd& y) {
+  const Stage& stage = phi_.stage();
+  diagonal_ = stage.inertia * model_.masses + stage.beta * phi_.stiffness();
   for (int i = 0; i < H.rows(); ++i)
     diagonal_(i) = std::max(diagonal_(i), H.block(H.diagonal[static_cast<size_t>(i)]).diagonal().maxCoeff());
   set_floors(y);

@@ -26,7 +26,7 @@ class ConvergenceTest {
 
   /// Begins a solve at y with gradient g.
   void start(const Eigen::VectorXd& y, const Eigen::VectorXd& g);
-  /// Takes the scale of rounding from the matrix of the solve, contact and damping included; never lowers it.
+  /// Takes the scale of rounding from the matrix where the iteration is, contact and damping included.
   void see_hessian(const BlockMatrix& H, const Eigen::VectorXd& y);
 
   /// Looks at the gradient where the iteration is. Returns what is wrong with it, or nothing.

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <random>
-#include <string>
 
 #include "sim/grids.h"
+#include "sim/principal.h"
 #include "tests/sim/support.h"
 
 namespace softreel::tests {
@@ -21,13 +21,15 @@ inline int inverted(const sim::TetMesh& mesh, const Eigen::VectorXd& x) {
   return count;
 }
 
-/// Root mean square distance between x and the rest shape, up to the best rigid motion.
+/// Root mean square distance between x and the rest shape, up to the best rigid motion (Kabsch 1976).
 inline double rms_from_rest(const Eigen::VectorXd& x, const Eigen::VectorXd& rest) {
   const Eigen::Index n = x.size() / 3;
   const Eigen::Map<const Eigen::Matrix3Xd> X(x.data(), 3, n), R(rest.data(), 3, n);
-  const Eigen::Matrix4d T = Eigen::umeyama(R, X, false);
-  const Eigen::Matrix3Xd moved = (T.topLeftCorner<3, 3>() * R).colwise() + T.topRightCorner<3, 1>();
-  return std::sqrt((moved - X).squaredNorm() / static_cast<double>(n));
+  const Eigen::Vector3d x_mean = X.rowwise().mean(), r_mean = R.rowwise().mean();
+  const Eigen::Matrix3d covariance = (X.colwise() - x_mean) * (R.colwise() - r_mean).transpose();
+  const sim::Principal<3> p = sim::principal_stretches(sim::Deformation<3>(covariance));
+  const Eigen::Matrix3d rotation = p.U * p.V.transpose();
+  return std::sqrt(((X.colwise() - x_mean) - rotation * (R.colwise() - r_mean)).squaredNorm() / static_cast<double>(n));
 }
 
 inline double volume(const sim::TetMesh& mesh, const Eigen::VectorXd& x) {
@@ -38,7 +40,5 @@ inline double volume(const sim::TetMesh& mesh, const Eigen::VectorXd& x) {
   }
   return sum;
 }
-
-inline const char* yes_no(bool yes) { return yes ? "yes" : "no"; }
 
 }  // namespace softreel::tests

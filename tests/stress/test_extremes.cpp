@@ -132,6 +132,88 @@ TEST_CASE("Young from 1e2 to 1e9 at default settings: the tip is where an exact 
   }
 }
 
+TEST_CASE("neighbours with Young 1e4 and 1e8 and a mass ratio of 1e6, tied together") {
+  // A light soft block hangs on a heavy stiff one, which hangs from the ceiling.
+  for (const char* linear : {"cholesky", "cg"}) {
+    TetMesh upper = block_of_tets(Vec3(0.4, 0.2, 0.4), 4, 2, 4), lower = upper;
+    for (Vec3& v : upper.vertices) v.y() += 0.2;
+    ModelBuilder builder;
+    const BodyRange heavy = builder.add_solid("heavy", upper, {"stable-neo-hookean", 1e8, 0.3, 1e5});
+    const BodyRange light = builder.add_solid("light", lower, {"stable-neo-hookean", 1e4, 0.3, 0.1});
+    builder.add_pin(pin_where(upper.vertices, [](const Vec3& p) { return p.y() > 0.2999; }));
+    std::vector<int> rim;  // of the lower block, from 0
+    for (size_t i = 0; i < lower.vertices.size(); ++i)
+      if (lower.vertices[i].y() > 0.0999) rim.push_back(static_cast<int>(i));
+    AttachSettings touching;
+    touching.near = 1e-3;
+    builder.add_ties(find_ties({light.first, &lower.vertices, boundary_triangles(lower)}, rim,
+                               {heavy.first, &upper.vertices, boundary_triangles(upper)}, touching, builder.stiffness()),
+                     0);
+    Simulation s(builder.finish(Vec3(0, -9.81, 0), {}, {}, {}), {"implicit-euler", linear, {}, 0});
+    long iterations = 0;
+    for (int i = 0; i < 120; ++i) {
+      const StepReport r = s.step(1.0 / 120);
+      REQUIRE_MESSAGE(r.converged, "step ", i, " with ", linear, ": ", r.reason);
+      iterations += r.newton_iterations;
+    }
+    double gap = 0;
+    for (size_t i = 0; i < lower.vertices.size(); ++i)
+      for (size_t k = 0; k < upper.vertices.size(); ++k)
+        if ((lower.vertices[i] - upper.vertices[k]).norm() < 1e-9)
+          gap = std::max(gap, (s.state().x.segment<3>(3 * (light.first + static_cast<int>(i))) -
+                               s.state().x.segment<3>(3 * (heavy.first + static_cast<int>(k))))
+                                  .norm());
+    std::printf("tied, Young 1e4 to 1e8, masses 1 to 1e6, %s: %.1f iterations a step, gap %.1e m\n", linear,
+                static_cast<double>(iterations) / 120, gap);
+    CHECK(gap < 1e-3);
+  }
+}
+
+TEST_CASE("degenerate elements: slivers, springs without length, points without neighbours") {
+  // A sliver of height 1e-6 among whole tetrahedra: stiff, but a step is a step.
+  TetMesh mesh = block_of_tets(Vec3(1, 0.2, 0.2), 5, 1, 1);
+  const int top = static_cast<int>(mesh.vertices.size());
+  const Tet& t = mesh.tets[0];
+  const auto p = [&](size_t a) { return mesh.vertices[static_cast<size_t>(t[a])]; };
+  const Vec3 normal = (p(1) - p(0)).cross(p(2) - p(0)).normalized();
+  mesh.vertices.push_back((p(0) + p(1) + p(2)) / 3 - 1e-6 * (normal.dot(p(3) - p(0)) > 0 ? 1 : -1) * normal);
+  Tet sliver{t[0], t[2], t[1], top};
+  mesh.tets.push_back(sliver);
+  ModelBuilder builder;
+  builder.add_solid("bar", mesh, {"stable-neo-hookean", 1e5, 0.4, 1000});
+  builder.add_pin(pin_where(mesh.vertices, [](const Vec3& q) { return q.x() < kLeft; }));
+  Simulation s(builder.finish(Vec3(0, -9.81, 0), {}, {}, {}), {"implicit-euler", "auto", {}, 6});
+  long iterations = 0;
+  for (int i = 0; i < 60; ++i) {
+    const StepReport r = s.step(1.0 / 60);
+    REQUIRE_MESSAGE(r.converged, r.reason);
+    iterations += r.newton_iterations;
+  }
+  std::printf("sliver of height 1e-6: %.1f iterations a step\n", static_cast<double>(iterations) / 60);
+  CHECK(s.state().x.allFinite());
+
+  CHECK_THROWS_WITH_AS(
+      [] {
+        TetMesh flat = block_of_tets(Vec3(1, 1, 1), 1, 1, 1);
+        for (Vec3& v : flat.vertices) v.y() = 0;
+        ModelBuilder().add_solid("flat", flat, {});
+      }(),
+      doctest::Contains("positive rest volume"), std::invalid_argument);
+
+  // A spring whose ends coincide pulls nowhere, and stays finite.
+  TriangleMesh pair;
+  pair.vertices = {Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  ModelBuilder springs;
+  springs.add_mass_spring("springs", pair, {{0, 1, 100, 0.0}, {1, 2, 100, 1.0}}, 1, 0.1);
+  springs.add_pin({{0}, {true, true, true}, {}});
+  Model model = springs.finish(Vec3::Zero(), {}, {}, {});
+  model.masses.setConstant(0.1);
+  model.v0(7) = 1;
+  Simulation swing(std::move(model), {"implicit-euler", "cholesky", {}, 6});
+  must_step(swing, 1.0 / 60, 120);
+  CHECK(swing.state().x.allFinite());
+}
+
 TEST_CASE("a 100 x 100 cloth of stiff fabric hangs from two corners at steps of 1/30 s") {
   const TriangleMesh sheet = grid_sheet(1, 1, 100, 100);
   ModelBuilder builder;

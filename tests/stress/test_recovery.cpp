@@ -1,7 +1,7 @@
 // What comes back from collapsed, random and flattened states, and which materials claim to.
 #include <cstdio>
-#include <map>
 
+#include "tests/sim/derivatives.h"
 #include "tests/stress/bodies.h"
 
 using namespace softreel::sim;
@@ -12,14 +12,17 @@ namespace {
 constexpr int kSeeds = 5;
 constexpr double kLength = 1;
 
-// Materials that claim to return from any of these states for nu <= 0.4; the others only promise an end without NaN
-// (corotated-det: and without inverted elements), or nothing at all (linear and stvk, which do not feel an inversion;
-// corotated, which has no volume term).
-bool claims(const std::string& material, double poisson) {
-  return (material == "stable-neo-hookean" || material == "corotated-volume") && poisson <= 0.4;
-}
-bool promises_an_end(const std::string& material) {
-  return material == "stable-neo-hookean" || material == "corotated-volume" || material == "corotated-det";
+/// What a material stands up to.
+enum class Claim {
+  kReturns,     ///< to the rest shape, from every state
+  kStationary,  ///< an end where the forces balance; with nu near 0.5 there are other minima, tangled ones too
+  kFinite,      ///< no more than numbers: linear and stvk do not feel an inversion
+};
+
+Claim claim(const std::string& material, double poisson) {
+  if (material == "linear" || material == "stvk") return Claim::kFinite;
+  if (material == "corotated") return Claim::kStationary;
+  return material != "corotated-det" && poisson <= 0.4 ? Claim::kReturns : Claim::kStationary;
 }
 
 const char* const kStates[] = {"point with noise", "random in a box", "flattened"};
@@ -80,25 +83,29 @@ TEST_CASE("quasi-static recovery from collapsed, random and flattened states") {
   std::printf("quasi-static recovery, %d seeds, up to a rigid motion\n", kSeeds);
   for (const MethodInfo& method : solid_materials()) {
     const std::string material(method.name);
-    for (const double poisson : {0.3, 0.4, 0.45, 0.49}) {
+    // Without a volume term, or without a claim, Poisson's ratio changes nothing that is looked at.
+    const bool all = solid_traits(material).volume_term && claim(material, 0.3) != Claim::kFinite;
+    for (const double poisson : all ? std::vector{0.3, 0.4, 0.45, 0.49} : std::vector{0.3}) {
       for (int kind = 0; kind < 3; ++kind) {
-        Tally tally;
-        for (unsigned seed = 1; seed <= kSeeds; ++seed) {
-          SimulationSettings settings{"static", "cholesky", {1e-9, 1000}, 0};
-          Simulation s(body(material, poisson, kind, seed), settings);
-          const bool converged = s.step(1).converged;
-          add(tally, converged, s.state().x);
-        }
-        print(material, poisson, kStates[kind], tally);
         CAPTURE(material);
         CAPTURE(poisson);
         CAPTURE(std::string(kStates[kind]));
-        if (claims(material, poisson)) CHECK(tally.returned == tally.runs);
-        if (promises_an_end(material)) {
-          CHECK(tally.finite == tally.runs);
-          CHECK(tally.upright == tally.runs);
-          CHECK(tally.stationary == tally.runs);
+        Tally tally;
+        for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+          Simulation s(body(material, poisson, kind, seed), {"static", "cholesky", {1e-9, 1000}, 0});
+          const bool converged = s.step(1).converged;
+          add(tally, converged, s.state().x);
+          if (claim(material, poisson) == Claim::kFinite || !converged) continue;
+          // A minimum of its own, not a place where the solver gave up: no direction leads down. The six rigid modes of
+          // a body whose forces balance to 1e-9 of those at the start are zero up to as much.
+          const Eigen::MatrixXd H = dense_hessian(*s.model().potentials[0], s.state().x, Definiteness::kExact);
+          const Eigen::VectorXd modes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(H).eigenvalues();
+          CHECK(modes(0) > -1e-6 * modes.tail(1)(0));
         }
+        print(material, poisson, kStates[kind], tally);
+        CHECK(tally.finite == tally.runs);
+        if (claim(material, poisson) == Claim::kReturns) CHECK(tally.returned == tally.runs);
+        if (claim(material, poisson) != Claim::kFinite) CHECK(tally.stationary == tally.runs);
       }
     }
   }
@@ -122,7 +129,7 @@ TEST_CASE("the same states released in motion come back finite and upright") {
       for (int kind = 0; kind < 3; ++kind) {
         Tally tally;
         for (unsigned seed = 1; seed <= kSeeds; ++seed) {
-          Simulation s(body(material, poisson, kind, seed), {"implicit-euler", "cholesky", {1e-3, 200}, 6});
+          Simulation s(body(material, poisson, kind, seed), {"implicit-euler", "cholesky", {1e-3, 60}, 6});
           bool converged = true;
           for (int i = 0; i < 120 && converged; ++i) converged = s.step(1.0 / 60).converged;
           add(tally, converged, s.state().x);
