@@ -146,9 +146,10 @@ TEST_CASE("neighbours with Young 1e4 and 1e8 and a mass ratio of 1e6, tied toget
       if (lower.vertices[i].y() > 0.0999) rim.push_back(static_cast<int>(i));
     AttachSettings touching;
     touching.near = 1e-3;
-    builder.add_ties(find_ties({light.first, &lower.vertices, boundary_triangles(lower)}, rim,
-                               {heavy.first, &upper.vertices, boundary_triangles(upper)}, touching, builder.stiffness()),
-                     0);
+    builder.add_ties(
+        find_ties({light.first, &lower.vertices, boundary_triangles(lower)}, rim,
+                  {heavy.first, &upper.vertices, boundary_triangles(upper)}, touching, builder.stiffness()),
+        0);
     Simulation s(builder.finish(Vec3(0, -9.81, 0), {}, {}, {}), {"implicit-euler", linear, {}, 0});
     long iterations = 0;
     for (int i = 0; i < 120; ++i) {
