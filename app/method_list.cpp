@@ -15,7 +15,6 @@ std::span<const MethodGroup> method_groups() {
       MethodGroup{"solver.stop", "stopping tests", sim::stopping_tests()},
       MethodGroup{"solver.linear", "linear solvers", sim::linear_solvers()},
       MethodGroup{"solver.preconditioner", "preconditioners", sim::preconditioners()},
-      MethodGroup{"solver.preconditioner", "preconditioners", sim::preconditioners()},
       MethodGroup{"soft.material.model", "materials of solids", sim::solid_materials()},
       MethodGroup{"cloth.material.model", "materials of membranes", sim::membrane_materials()},
       MethodGroup{"field.equation", "equations of fields", sim::field_equations()},

@@ -1,34 +1,21 @@
-// The worked example of sim/README.md, "To add a material", built and measured as it stands there.
+// The worked example of sim/README.md, "A material", built and measured as it stands there.
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
-#include <fstream>
-#include <sstream>
-#include <string>
 
 #include "sim/mesh.h"
 #include "sim/simplex_kernel.h"
 #include "tests/sim/derivatives.h"
+#include "tests/sim/source_text.h"
 #include "tests/sim/symmetric_dirichlet.h"
 
 using namespace softreel::sim;
 using namespace softreel::tests;
 
-namespace {
-
-std::string text_of(const std::string& file) {
-  std::ifstream in(std::string(SOFTREEL_SOURCE_DIR) + "/" + file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-}  // namespace
-
 TEST_CASE("the material that the README adds is this one, to the letter") {
-  const std::string code = text_of("tests/sim/symmetric_dirichlet.h");
+  const std::string code = source_text("tests/sim/symmetric_dirichlet.h");
   REQUIRE(code.size() > 1000);
-  CHECK(text_of("sim/README.md").find(code) != std::string::npos);
+  CHECK(source_text("sim/README.md").find(code) != std::string::npos);
 }
 
 TEST_CASE("the material that the README adds has the derivatives of its energy") {
