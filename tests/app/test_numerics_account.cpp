@@ -55,27 +55,32 @@ struct Table {
   }
 };
 
+/// The tables whose first column is "name".
 std::vector<Table> tables_of_account() {
   std::vector<Table> tables;
   std::vector<std::string> keys;
-  std::string previous;
   std::istringstream in(source_text("sim/NUMERICS.md"));
-  bool inside = false, code = false;
+  bool inside = false, names = false, code = false;
   size_t first = 0;  // of the tables that are being filled: one for each key of the heading
-  for (std::string line; std::getline(in, line); previous = line) {
+  for (std::string line; std::getline(in, line);) {
     if (line.rfind("```", 0) == 0) code = !code;
     if (code) continue;
     if (line.rfind("#", 0) == 0) keys = code_in(line);
-    const bool row = line.rfind("|", 0) == 0;
-    if (row && !inside && !keys.empty()) {
-      first = tables.size();
-      for (const std::string& key : keys) tables.push_back({key, cells_of(line), {}});
-    } else if (row && !keys.empty() && line.rfind("|-", 0) != 0) {
-      const std::vector<std::string> cells = cells_of(line), names = code_in(cells.front());
-      CHECK_MESSAGE(names.size() == 1, "sim/NUMERICS.md: a row without a name in its first column: " << line);
-      for (size_t t = first; t < tables.size() && names.size() == 1; ++t) tables[t].rows[names.front()] = cells;
-    }
+    const bool row = line.rfind("|", 0) == 0, head = row && !inside;
     inside = row;
+    if (!row || line.rfind("|-", 0) == 0) continue;
+    const std::vector<std::string> cells = cells_of(line);
+    if (head) {
+      names = cells.front() == "name";
+      first = tables.size();
+      if (names)
+        for (const std::string& key : keys) tables.push_back({key, cells, {}});
+      CHECK_MESSAGE((!names || !keys.empty()), "sim/NUMERICS.md: names under a heading without a key: " << line);
+    } else if (names) {
+      const std::vector<std::string> name = code_in(cells.front());
+      CHECK_MESSAGE(name.size() == 1, "sim/NUMERICS.md: a row without a name in its first column: " << line);
+      for (size_t t = first; t < tables.size() && name.size() == 1; ++t) tables[t].rows[name.front()] = cells;
+    }
   }
   return tables;
 }
