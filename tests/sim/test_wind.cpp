@@ -155,7 +155,7 @@ TEST_CASE("wind on a turning sheet keeps the order of every method: lagged area 
     const int steps = order == 4 ? 60 : order == 2 ? 200 : 800;
     const double coarse = (end_of(integrator, steps) - exact).norm(),
                  fine = (end_of(integrator, 2 * steps) - exact).norm();
-    MESSAGE(integrator << ": order " << std::log2(coarse / fine));
+    MESSAGE(std::string(integrator) << ": order " << std::log2(coarse / fine));
     CHECK(std::abs(std::log2(coarse / fine) - order) < 0.1);
   }
 }
