@@ -19,9 +19,7 @@ namespace {
 
 constexpr int kSteps = 60;
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// A cube of 0.5 m, held at one side; 6 tetrahedra a cell.
 Model cube(int x, int y, int z, double young) {
@@ -37,7 +35,8 @@ Model cube(int x, int y, int z, double young) {
 
 Model cloth(int cells) {
   ModelBuilder builder;
-  builder.add_membrane("cloth", grid_sheet(1, 1, cells, cells), {"stvk", 1e5, 0.3, 1e-3, 1e-5, BendingModel::kAuto, 0.2});
+  builder.add_membrane("cloth", grid_sheet(1, 1, cells, cells),
+                       {"stvk", 1e5, 0.3, 1e-3, 1e-5, BendingModel::kAuto, 0.2});
   Pin pin;
   pin.vertices = {0, cells};
   builder.add_pin(std::move(pin));
@@ -82,16 +81,20 @@ double run(const char* what, const std::function<Model()>& make, const char* lin
 int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::max(1, std::atoi(argv[1])) : 3;
   std::printf("one second in %d steps, tolerance 1e-3, median of %d runs [s]; stages of the last run\n", kSteps, runs);
-  std::printf("%-36s %-9s %7s  %5s %5s %5s %5s %5s  %5s %8s  %8s  %s\n", "", "linear", "in all", "build", "grad", "assem",
-              "solve", "other", "newt.", "lin.it.", "lowest", "chosen");
-  run("cube, 96,000 tets, Young 1e5", [] { return cube(32, 25, 20, 1e5); }, "auto", 1e-3, runs);
-  run("cube, 264,000 tets, Young 1e5", [] { return cube(44, 40, 25, 1e5); }, "auto", 1e-3, runs);
+  std::printf("%-36s %-9s %7s  %5s %5s %5s %5s %5s  %5s %8s  %8s  %s\n", "", "linear", "in all", "build", "grad",
+              "assem", "solve", "other", "newt.", "lin.it.", "lowest", "chosen");
+  run(
+      "cube, 96,000 tets, Young 1e5", [] { return cube(32, 25, 20, 1e5); }, "auto", 1e-3, runs);
+  run(
+      "cube, 264,000 tets, Young 1e5", [] { return cube(44, 40, 25, 1e5); }, "auto", 1e-3, runs);
   const auto stiff = [] { return cube(32, 25, 20, 1e7); };
   const double at_default = run("cube, 96,000 tets, Young 1e7", stiff, "auto", 1e-3, runs);
   const double exact = run("the same to 1e-8, direct", stiff, "cholesky", 1e-8, 1);
   std::printf("lowest point of the stiff cube off by %.3f %% of its way\n",
               100 * std::abs((at_default - exact) / (exact + 0.25)));
-  run("cloth, 8,192 triangles", [] { return cloth(64); }, "auto", 1e-3, runs);
-  run("cloth, 32,768 triangles", [] { return cloth(128); }, "auto", 1e-3, runs);
+  run(
+      "cloth, 8,192 triangles", [] { return cloth(64); }, "auto", 1e-3, runs);
+  run(
+      "cloth, 32,768 triangles", [] { return cloth(128); }, "auto", 1e-3, runs);
   return 0;
 }
