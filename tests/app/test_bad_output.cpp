@@ -57,7 +57,7 @@ TEST_CASE("Output that cannot be written is refused before the work") {
   CHECK(test::slurp(file) == "a file");
 }
 
-TEST_CASE("A full disk ends a run with exit code 5 and nothing half-written; with room it goes on") {
+TEST_CASE("A full disk ends a run with exit code 5 and nothing half-written, with room it goes on") {
   test::TempFolder folder;
   const std::string scene = folder.write("scene.toml", test::hanging_cloth()).string();
   REQUIRE(test::run({"render", scene, "-o", (folder / "reference").string()}).code == 0);

@@ -27,7 +27,7 @@ const std::string kSurface =
 
 }  // namespace
 
-TEST_CASE("A mass-spring scene never calls TetGen; a surface to fill does") {
+TEST_CASE("A mass-spring scene never calls TetGen, a surface to fill does") {
   const auto springs = stats(test::hanging_cloth());
   CHECK_FALSE(has(springs, "seconds", "tetrahedralize"));
   CHECK(left_out(springs, "tetrahedralization (TetGen)"));
@@ -38,7 +38,7 @@ TEST_CASE("A mass-spring scene never calls TetGen; a surface to fill does") {
   CHECK(surface.at("tets") > 0);
 }
 
-TEST_CASE("An explicit scene never assembles or solves; an implicit one does") {
+TEST_CASE("An explicit scene never assembles or solves, an implicit one does") {
   const auto explicit_steps =
       stats(test::hanging_cloth(), {"--set", "time.integrator=symplectic-euler", "--set", "time.substeps=100"});
   CHECK(explicit_steps.at("steps") == 100);
@@ -54,7 +54,7 @@ TEST_CASE("An explicit scene never assembles or solves; an implicit one does") {
   CHECK(has(implicit_steps, "solver", "chosen"));
 }
 
-TEST_CASE("A scene without colliders has no contact stage; one with a collider has") {
+TEST_CASE("A scene without colliders has no contact stage, one with a collider has") {
   const auto without = stats(test::hanging_cloth());
   CHECK_FALSE(has(without, "simulate_seconds", "contact"));
   CHECK(left_out(without, "contact with colliders"));
@@ -63,7 +63,7 @@ TEST_CASE("A scene without colliders has no contact stage; one with a collider h
   CHECK_FALSE(left_out(with, "contact with colliders"));
 }
 
-TEST_CASE("One sample has no accumulation buffer; two have") {
+TEST_CASE("One sample has no accumulation buffer, two have") {
   const auto one = stats(test::hanging_cloth(), {"--set", "render.samples=1"});
   CHECK_FALSE(has(one, "render_counters", "accumulation_buffers"));
   CHECK(one.at("render_counters").at("passes") == 2);

@@ -113,7 +113,7 @@ TEST_CASE("Two folders: missing and extra frames count, the worst is named") {
   CHECK(test::contains(moved.out, "4 of 4 frames differ"));
 }
 
-TEST_CASE("A missing picture is a no; what is no picture is an error, also when it is the same twice") {
+TEST_CASE("A missing picture is a no, what is no picture is an error, also when it is the same twice") {
   test::TempFolder folder;
   const auto picture = folder / "picture.png";
   render::write_png(picture, gradient());

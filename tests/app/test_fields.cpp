@@ -49,7 +49,7 @@ TEST_CASE("a field that was interrupted goes on to the same bits, with every int
     }
 }
 
-TEST_CASE("a field is drawn in the colours of its values, with its bar; new colours do not simulate again") {
+TEST_CASE("a field is drawn in the colours of its values, with its bar, new colours do not simulate again") {
   test::TempFolder folder;
   const auto file = folder.write("scene.toml", scene("implicit-euler", kPoisson));
   const auto stats = test::stats_of({"render", file.string(), "-o", (folder / "out").string()}, folder);
@@ -71,7 +71,7 @@ TEST_CASE("a field is drawn in the colours of its values, with its bar; new colo
           .at("frames_simulated") == 6);
 }
 
-TEST_CASE("bodies and fields share a scene; each goes as it goes alone") {
+TEST_CASE("bodies and fields share a scene, each goes as it goes alone") {
   test::TempFolder folder;
   const std::string field = kHeat;
   const auto both = folder.write("both.toml", test::hanging_cloth() + field);

@@ -34,7 +34,7 @@ const std::string kTriangle = "v -1 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n";
 
 }  // namespace
 
-TEST_CASE("A second render does nothing; a picture that is gone or damaged is drawn again, to the same bytes") {
+TEST_CASE("A second render does nothing, a picture that is gone or damaged is drawn again, to the same bytes") {
   const Clip clip(test::hanging_cloth());
   CHECK(clip.render() == Work{6, 6});
   const auto before = test::pictures_in(clip.out());

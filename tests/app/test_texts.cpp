@@ -15,7 +15,7 @@ TEST_CASE("--version names the program and its libraries") {
   }
 }
 
-TEST_CASE("--help has examples and the exit codes; every command has its own help") {
+TEST_CASE("--help has examples and the exit codes, every command has its own help") {
   const test::RunResult all = test::run({"--help"});
   CHECK(all.code == 0);
   CHECK(test::contains(all.out, "Examples:"));

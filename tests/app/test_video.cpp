@@ -127,7 +127,7 @@ TEST_CASE("Names with blanks, colons, quotes, percent signs, umlauts and a leadi
   }
 }
 
-TEST_CASE("An ffmpeg that fails is an error with its words; one that hangs does not hold up Ctrl-C") {
+TEST_CASE("An ffmpeg that fails is an error with its words, one that hangs does not hold up Ctrl-C") {
   test::TempFolder folder;
   const std::string scene = scene_in(folder), out = (folder / "out").string();
   REQUIRE(test::run({"render", scene, "-o", out}).code == 0);

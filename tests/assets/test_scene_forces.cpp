@@ -71,7 +71,7 @@ gusts = { amplitude = 0.5, seed = 3 }
   CHECK(s.wind->gusts->seed == 3);
 }
 
-TEST_CASE("a scene that says nothing of them has none; air may be still") {
+TEST_CASE("a scene that says nothing of them has none, air may be still") {
   const Scene none = parse(kBlock);
   CHECK(none.springs.empty());
   CHECK(none.loads.empty());

@@ -136,7 +136,7 @@ material = "denim"
   CHECK(scene.cloth[0].areal_density() == doctest::Approx(0.4));
 }
 
-TEST_CASE("light = [] is a scene without lights") {
+TEST_CASE("an empty light list is a scene without lights") {
   CHECK(parse("light = []\n[[soft]]\nblock = {}\n").lights.empty());
   CHECK(parse("[[soft]]\nblock = {}\n[[light]]\nkind = 'sun'\n[[light]]\n").lights.size() == 2);
 }

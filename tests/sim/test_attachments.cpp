@@ -110,7 +110,7 @@ TEST_CASE("ties keep linear and angular momentum, touching or across a gap, what
   }
 }
 
-TEST_CASE("a tied pair turned as a whole has no energy; apart across a gap it does not shear") {
+TEST_CASE("a tied pair turned as a whole has no energy, apart across a gap it does not shear") {
   Pair pair(0.03, {"stable-neo-hookean", 1e4, 0.3, 1000}, {"stable-neo-hookean", 1e4, 0.3, 1000});
   const Eigen::VectorXd x = pair.builder.positions();
   const auto terms = make_ties(pair.ties);

@@ -191,7 +191,7 @@ TEST_CASE(
   CHECK(residual.norm() <= 1e-13 * norm);
 }
 
-TEST_CASE("the mass of a field sums to the area; the consistent one integrates products of linear functions exactly") {
+TEST_CASE("the mass of a field sums to the area, the consistent one integrates products of linear functions exactly") {
   const TriangleMesh mesh = uneven_square(6);
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(mesh.vertices.size()));
   const Eigen::VectorXd x = at_vertices(mesh, [](const Vec3& p) { return p.x(); });
