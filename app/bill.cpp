@@ -60,12 +60,19 @@ std::vector<BillItem> bill_of(const Scene& s) {
       "no vertex is held");
   add("contact with colliders", !s.colliders.empty(), number(s.colliders.size(), "collider", "colliders"),
       "there is no collider");
-  add("friction", count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0, "some colliders are rough",
-      s.colliders.empty() ? "there is no collider" : "every collider's friction is 0");
+  const bool still = s.time.integrator == "static";
+  add("friction", !still && count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0,
+      "some colliders are rough",
+      still                 ? "an equilibrium knows no velocity"
+      : s.colliders.empty() ? "there is no collider"
+                            : "every collider's friction is 0");
   const std::string& integrator = s.time.integrator;
-  add("Hessians and a linear solver", bodies && sim::is_implicit(integrator),
+  const bool implicit = sim::is_implicit(integrator), newton = s.solver.method == "newton";
+  add("Hessians and a linear solver", bodies && implicit && newton,
       fmt::format("{} solves a system in each step (linear = {})", integrator, s.solver.linear),
-      bodies ? fmt::format("{} is explicit", integrator) : "there is no body");
+      !bodies     ? "there is no body"
+      : !implicit ? fmt::format("{} is explicit", integrator)
+                  : fmt::format("{} uses gradients alone", s.solver.method));
   add("scalar fields", !s.fields.empty(), number(s.fields.size(), "field", "fields"), "there is no field");
   add("colour bars", count(s.fields, [](const Field& f) { return f.colorbar; }) > 0, "a field shows its scale",
       s.fields.empty() ? "there is no field" : "colorbar is false");

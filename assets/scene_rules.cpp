@@ -84,6 +84,10 @@ void check_static(KeyVisitor& v, const Scene& scene) {
   const auto refuse = [&](const std::string& key) {
     if (v.given(key)) v.problem(key, "has no effect with time.integrator = \"static\", which knows no velocity");
   };
+  const auto refuse_load = [&](const std::string& key) {
+    if (v.given(key))
+      v.problem(key, "has no place in time.integrator = \"static\", where all loads grow together over the clip");
+  };
   refuse("damping");
   refuse("wind");
   for (size_t i = 0; i < scene.springs.size(); ++i) refuse(fmt::format("springs.{}.damping", i + 1));
@@ -93,6 +97,13 @@ void check_static(KeyVisitor& v, const Scene& scene) {
     refuse(place + ".spin");
     refuse(place + ".spring_damping");
   });
+  if (!scene.colliders.empty() && !v.given("contact.stiffness"))
+    v.problem(
+        "time.integrator",
+        "static with colliders needs contact.stiffness: the default is made of masses and time steps, which do not "
+        "count in an equilibrium");
+  for (size_t i = 0; i < scene.loads.size(); ++i)
+    for (const char* key : {"from", "until", "ramp"}) refuse_load(fmt::format("load.{}.{}", i + 1, key));
   if (scene.time.frames() < 2)
     v.problem("time.duration",
               "is one frame, of the bodies before any load; time.integrator = \"static\" needs at least two, in which "
@@ -137,7 +148,9 @@ void check(KeyVisitor& v, const Solver& s) {
            "is for method = \"newton\"");
   only_for(v, s.method != "fixed-point", {"line_search"}, "is for method = \"newton\" or \"gradient-descent\"");
   if (!newton && s.stop == "decrement")
-    v.problem("stop", "decrement is Newton's; with this method expected \"residual\" or \"step\"");
+    v.problem("stop", "decrement is Newton's; with this method expected \"residual\"");
+  if (s.method == "gradient-descent" && s.stop == "step")
+    v.problem("stop", "the steps of gradient-descent say little about how far the minimum is; expected \"residual\"");
   const bool direct = s.linear == "cholesky" || s.linear == "ldlt" || s.linear == "lu";
   only_for(v, s.linear == "cg" || s.linear == "gmres" || s.linear == "steepest-descent", {"preconditioner"},
            "is for linear = \"cg\", \"gmres\" or \"steepest-descent\"");

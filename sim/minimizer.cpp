@@ -47,6 +47,9 @@ std::unique_ptr<Minimizer> make_minimizer(const Model& model, IncrementalPotenti
   if (settings.method != "newton" && settings.stop == "decrement")
     throw std::invalid_argument("the Newton decrement stops Newton's method only; " + settings.method +
                                 " can stop by residual or step");
+  if (settings.method == "gradient-descent" && settings.stop == "step")
+    throw std::invalid_argument(
+        "the steps of gradient-descent say little about how far the minimum is; it stops by residual");
   return find_method(kMinimizers, settings.method, "minimizer").make({model, phi, linear_solver, settings});
 }
 

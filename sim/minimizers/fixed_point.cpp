@@ -61,11 +61,12 @@ void FixedPoint::minimize(Eigen::VectorXd& y, StepReport& report) {
     d_ = -g_;
     phi_.mass().solve(d_);
     y += d_;
-    test_.look_at_step(y, d_, true);
     const double change = std::sqrt(-g_.dot(d_));  // |d|_M
     if (iteration > 0) {
       factor = last > 0 ? change / last : 0;
       growths = factor > 1 ? growths + 1 : 0;
+      // What is left after a step that converges linearly: factor/(1 - factor) of it.
+      if (factor < 1) test_.look_at_step(y, std::max(1.0, factor / (1 - factor)) * d_, true);
     }
     last = change;
     phi_.gradient(y, g_, report);

@@ -41,8 +41,6 @@ void GradientDescent::minimize(Eigen::VectorXd& y, StepReport& report) {
                  [&](int i) { d_.segment<3>(3 * i) = -g_.segment<3>(3 * i) / diagonal(i); });
     const double length = search_.along(d_, g_.dot(d_), test_.value_rounding(), first, y, report);
     if (length == 0) return fail("the line search found no lower energy");
-    d_ *= length;
-    test_.look_at_step(y, d_, true);
     first = 2 * length;
     phi_.gradient(y, g_, report);
   }

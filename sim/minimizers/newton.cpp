@@ -95,7 +95,10 @@ void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
                   test_.slowest() + "'");
     ++report.newton_iterations;
     if (modification_ == Modification::kAuto && iteration == next_exact_) definiteness_ = Definiteness::kExact;
-    if (!step(iteration, y, report, failure)) return fail(failure);
+    if (!step(iteration, y, report, failure)) {
+      shift_ = 0;
+      return fail(failure);
+    }
     phi_.gradient(y, g_, report);
   }
 }
@@ -128,16 +131,19 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
   while (true) {
     if (found) {
       const double slope = g_.dot(d_);
-      test_.look_at_slope(slope);
       const double length = slope < 0 ? search_.along(d_, slope, test_.value_rounding(), 1, y, report) : 0;
       if (length > 0) {
-        test_.look_at_step(y, d_, length >= 1);
+        if (applied_shift_ == 0 && !hardened) {  // a shifted step is short for another reason than being nearly there
+          test_.look_at_slope(slope);
+          test_.look_at_step(y, d_, length >= 1);
+        }
         shift_ = shift_ > kSmallestShift ? shift_ / kShiftGrowth : 0;
         return true;
       }
       failure = slope < 0 ? "the line search found no lower energy" : "the search direction does not go downhill";
     }
-    if (hardened) {  // the plain Newton direction goes downhill in any case
+    if (!found && !indefinite_) return false;  // the linear solver says why
+    if (hardened) {                            // the plain Newton direction goes downhill in any case
       hardened = false;
       phi_.soften();
       model_at();
@@ -151,10 +157,7 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
 
 /// A larger c. Returns false at its end.
 bool Newton::shift_more() {
-  if (shift_ >= kLargestShift) {
-    shift_ = 0;
-    return false;
-  }
+  if (shift_ >= kLargestShift) return false;
   shift_ = std::max(kSmallestShift, kShiftGrowth * shift_);
   return true;
 }
@@ -175,9 +178,9 @@ bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string
     analysed_ = true;
   }
   const std::vector<double> targets = linear_targets();
-  double mean = 0;
-  for (const int k : H_.diagonal) mean += H_.block(k).trace() / (3.0 * H_.rows());
-  mean -= applied_shift_;
+  // Of the body at rest: the diagonal of H itself can be anything in a bad state, zero and less included.
+  const Stage& stage = phi_.stage();
+  const double mean = stage.inertia * model_.masses.mean() + stage.beta * phi_.stiffness().mean();
   while (true) {
     if (const double c = shift_ * mean; c != applied_shift_) {
       for (const int k : H_.diagonal) H_.block(k).diagonal().array() += c - applied_shift_;
@@ -189,6 +192,7 @@ bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string
     report.solver = linear.chosen;
     if (linear.ok) return true;
     failure = "the linear solver failed: " + linear.reason;
+    indefinite_ = linear.indefinite;
     const bool tried = modification_ == Modification::kAuto && definiteness_ == Definiteness::kExact;
     if (!linear.indefinite || tried || !shift_more()) return false;
   }

@@ -51,7 +51,8 @@ class Newton final : public Minimizer {
   ConvergenceTest test_;
   LineSearch search_;
   bool analysed_ = false;
-  double shift_ = 0;          // c, relative to the mean of H's diagonal; kept from step to step
+  double shift_ = 0;          // c, relative to the mean diagonal at rest; kept from step to step
+  bool indefinite_ = false;   // why the last direction was not found
   double applied_shift_ = 0;  // what of it is in H_ [kg]
   BlockMatrix H_;
   Eigen::VectorXd g_, model_gradient_, d_;

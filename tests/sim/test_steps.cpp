@@ -35,7 +35,7 @@ Model bar(double young, const Motion& motion, int cells = 8) {
 
 }  // namespace
 
-TEST_CASE("a run that is saved and goes on elsewhere has the same bits, for every integrator and minimizer") {
+TEST_CASE("a run that is saved and goes on elsewhere has the same bits, for every integrator") {
   for (const MethodInfo& method : integrators()) {
     const std::string name(method.name);
     CAPTURE(name);
@@ -77,8 +77,8 @@ TEST_CASE("the consistent mass matrix is that of the elements: its total, its ki
       ones(3 * i + 1) = 1;
       linear(3 * i + 1) = model.x0(3 * i);
     }
-    CHECK(mass.energy(ones) == doctest::Approx(0.5 * total).epsilon(1e-12));
-    CHECK(mass.energy(linear) == doctest::Approx(0.5 * total / 12).epsilon(1e-12));
+    CHECK(mass.energy(ones) == doctest::Approx(0.5 * total).scale(0).epsilon(1e-12));
+    CHECK(mass.energy(linear) == doctest::Approx(0.5 * total / 12).scale(0).epsilon(1e-12));
     const Eigen::VectorXd f = random_vector(ones.size(), 1, 3);
     Eigen::VectorXd a = f, back = Eigen::VectorXd::Zero(f.size());
     mass.solve(a);
@@ -119,7 +119,7 @@ TEST_CASE("a pin that turns far in one step is driven in sub-steps: the bar ends
     must_step(slowly, 1.0 / 12, 12);
     if (std::string(integrator) == "static")
       // The same equilibrium, to the tolerance 1e-3 of each step's forces.
-      CHECK(at_once.energies().elastic == doctest::Approx(slowly.energies().elastic).epsilon(1e-2));
+      CHECK(at_once.energies().elastic == doctest::Approx(slowly.energies().elastic).scale(0).epsilon(1e-2));
     // A quarter turn the other way holds a ninth of the energy of three: (90/270)^2.
     CHECK(at_once.energies().elastic > 0.5 * slowly.energies().elastic);
   }

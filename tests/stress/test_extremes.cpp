@@ -128,7 +128,7 @@ TEST_CASE("Young from 1e2 to 1e9 at default settings: the tip is where an exact 
     const double at_default = tip(young, false), exactly = tip(young, true);
     std::printf("Young %.0e: tip %+.4e m, exactly %+.4e m, off by %.3f %%\n", young, at_default, exactly,
                 100 * std::abs(at_default / exactly - 1));
-    CHECK(at_default == doctest::Approx(exactly).epsilon(0.01));
+    CHECK(at_default == doctest::Approx(exactly).scale(0).epsilon(0.01));
   }
 }
 
@@ -170,7 +170,7 @@ TEST_CASE("neighbours with Young 1e4 and 1e8 and a mass ratio of 1e6, tied toget
   }
 }
 
-TEST_CASE("degenerate elements: slivers, springs without length, points without neighbours") {
+TEST_CASE("degenerate elements: slivers, flat tetrahedra, springs without length") {
   // A sliver of height 1e-6 among whole tetrahedra: stiff, but a step is a step.
   TetMesh mesh = block_of_tets(Vec3(1, 0.2, 0.2), 5, 1, 1);
   const int top = static_cast<int>(mesh.vertices.size());

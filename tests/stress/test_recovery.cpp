@@ -94,7 +94,8 @@ TEST_CASE("quasi-static recovery from collapsed, random and flattened states") {
         for (unsigned seed = 1; seed <= kSeeds; ++seed) {
           // Near its pole, where an element is all but a line, the rotation of the corotated family magnifies rounding:
           // there forces are known to some 1e-9 of those at the start.
-          Simulation s(body(material, poisson, kind, seed), {"static", "cholesky", {1e-7, 1000}, 0});
+          Simulation s(body(material, poisson, kind, seed),
+                       {"static", "cholesky", {1e-7, claim(material, poisson) == Claim::kFinite ? 60 : 1000}, 0});
           const bool converged = s.step(1).converged;
           add(tally, converged, s.state().x);
           if (claim(material, poisson) == Claim::kFinite || !converged) continue;
