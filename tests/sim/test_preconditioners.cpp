@@ -59,9 +59,7 @@ TEST_CASE("every preconditioner is a symmetric positive definite operator") {
   }
 }
 
-TEST_CASE(
-    "the eigenvalues of P^-1 A of multigrid are above 0 and at most 1, and no further down than few cycles can "
-    "correct") {
+TEST_CASE("the eigenvalues of P^-1 A of multigrid are at most 1, and not far below") {
   const System s = real_system(4, 1e6);
   const Eigen::MatrixXd A = dense(s.A);
   MultigridPreconditioner P;
