@@ -162,3 +162,16 @@ TEST_CASE("an equilibrium grows its loads over the clip and ends where damped mo
   const double sag = (equilibrium.state().x - equilibrium.model().x0).norm();
   CHECK((equilibrium.state().x - motion.state().x).norm() < 1e-7 * sag);
 }
+
+TEST_CASE("bdf2 starts anew, with a step of newmark, where a step is more than 2.4 times as long as the last") {
+  const double h = 1.0 / 500;
+  for (const double ratio : {2.0, 64.0}) {
+    Simulation bdf2(swinging_cloth(false), exact("bdf2")), newmark(swinging_cloth(false), exact("newmark"));
+    must_step(bdf2, h / ratio, 4);
+    newmark.restore(bdf2.state(), newmark.memory());
+    must_step(bdf2, h, 1);
+    must_step(newmark, h, 1);
+    CAPTURE(ratio);
+    CHECK((bdf2.state().x == newmark.state().x) == (ratio > 2.4));
+  }
+}
