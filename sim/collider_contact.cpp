@@ -64,14 +64,15 @@ void ColliderContact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gr
 
 // psi' < 0 and the distance from a convex shape is convex: the curvature part is negative semi-definite on the tangent
 // plane and clamped away; what stays is psi'' n n^T.
-void ColliderContact::element_hessians(const Eigen::VectorXd& x, double scale, Definiteness, double* blocks) const {
-  parallel_for(static_cast<int>(vertices_.size()), Work::kRow, [&](int i) {
-    Eigen::Map<Eigen::Matrix3d> block(blocks + 9 * static_cast<size_t>(i));
+void ColliderContact::element_hessians(const Eigen::VectorXd& x, double scale, Definiteness, StencilRange range,
+                                       double* blocks) const {
+  for (int i = range.first; i < range.first + range.count; ++i, blocks += 9) {
+    Eigen::Map<Eigen::Matrix3d> block(blocks);
     block.setZero();
     visit(x.segment<3>(3 * i), [&](double s, const Eigen::Vector3d& normal) {
       block += scale * 2 * stiffness_(i) * s * normal * normal.transpose();
     });
-  });
+  }
 }
 
 SignedDistance ColliderContact::at(int collider, double t, const Eigen::Vector3d& point) const {

@@ -43,7 +43,8 @@ class ColliderContact : public EnergyTerm {
   void add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const override;
   int stencil_size() const override { return 1; }
   std::span<const int> stencils() const override { return vertices_; }
-  void element_hessians(const Eigen::VectorXd& x, double scale, Definiteness, double* blocks) const override;
+  void element_hessians(const Eigen::VectorXd& x, double scale, Definiteness, StencilRange range,
+                        double* blocks) const override;
 
   const std::vector<Collider>& colliders() const { return colliders_; }
   double distance() const { return settings_.distance; }

@@ -10,7 +10,8 @@ namespace {
 
 class ColliderFriction final : public EnergyTerm {
  public:
-  ColliderFriction(const ColliderContact& contact, double slip_speed) : contact_(contact), slip_speed_(slip_speed) {}
+  ColliderFriction(const ColliderContact& contact, double slip_speed)
+      : contact_(contact), slip_speed_(slip_speed), touches_of_(contact.stencils().size() + 1, 0) {}
 
   std::string_view name() const override { return "friction"; }
   EnergyKind kind() const override { return EnergyKind::kDissipation; }
@@ -80,9 +81,10 @@ class ColliderFriction final : public EnergyTerm {
   // other side, and comes back the same way. Touches that a proposed step would turn around are modelled by their stick
   // branch, u^2/slip_speed, instead: they end up in it, and if they should slip after all, Newton's method leaves it
   // monotonically (f' is concave).
-  void element_hessians(const Eigen::VectorXd& v, double scale, Definiteness, double* blocks) const override {
-    parallel_for(vertices(), Work::kRow, [&](int i) {
-      Eigen::Map<Eigen::Matrix3d> block(blocks + 9 * static_cast<size_t>(i));
+  void element_hessians(const Eigen::VectorXd& v, double scale, Definiteness, StencilRange range,
+                        double* blocks) const override {
+    for (int i = range.first; i < range.first + range.count; ++i, blocks += 9) {
+      Eigen::Map<Eigen::Matrix3d> block(blocks);
       block.setZero();
       visit(i, [&](const Touch& touch) {
         const Eigen::Vector3d u = slip(touch, v, i);
@@ -99,7 +101,7 @@ class ColliderFriction final : public EnergyTerm {
         }
         block += scale * touch.limit * D;
       });
-    });
+    }
   }
 
   bool harden(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) override {
@@ -138,7 +140,7 @@ class ColliderFriction final : public EnergyTerm {
     bool stuck = false;        // modelled by its stick branch, wherever it is
   };
 
-  int vertices() const { return touches_of_.empty() ? 0 : static_cast<int>(touches_of_.size()) - 1; }
+  int vertices() const { return static_cast<int>(touches_of_.size()) - 1; }
   template <class Visit>
   void visit(int i, const Visit& each) const {
     for (int k = touches_of_[static_cast<size_t>(i)]; k < touches_of_[static_cast<size_t>(i) + 1]; ++k)

@@ -73,16 +73,15 @@ class ElementTerm final : public EnergyTerm {
   std::span<const int> stencils() const override { return stencils_; }
   bool constant_hessian() const override { return Kernel::kConstantHessian; }
 
-  void element_hessians(const Eigen::VectorXd& q, double scale, Definiteness definiteness,
+  void element_hessians(const Eigen::VectorXd& q, double scale, Definiteness definiteness, StencilRange range,
                         double* blocks) const override {
-    parallel_for(elements(), Work::kElement, [&](int e) {
+    for (int e = range.first; e < range.first + range.count; ++e) {
       ElementHessian<K> hessian;
       kernel_.hessian(e, gather(q, e), definiteness, hessian);
-      double* out = blocks + static_cast<size_t>(e) * hessian_doubles(K);
       for (int a = 0; a < K; ++a)
-        for (int b = a; b < K; ++b, out += 9)
-          Eigen::Map<Eigen::Matrix3d>{out} = scale * hessian.template block<3, 3>(3 * a, 3 * b);
-    });
+        for (int b = a; b < K; ++b, blocks += 9)
+          Eigen::Map<Eigen::Matrix3d>{blocks} = scale * hessian.template block<3, 3>(3 * a, 3 * b);
+    }
   }
 
  private:

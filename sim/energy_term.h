@@ -15,6 +15,13 @@ enum class Definiteness {
   kClamped,  ///< negative eigenvalues of the element's Hessian set to zero; exact where there are none
 };
 
+inline constexpr int kMostVertices = 4;  ///< of a stencil
+
+/// Stencils [first, first + count) of a term.
+struct StencilRange {
+  int first = 0, count = 0;
+};
+
 /// The step that is about to be solved; lagged quantities are taken from it.
 struct StepContext {
   const Eigen::VectorXd& x;            ///< positions at t, 3n [m]
@@ -54,18 +61,19 @@ class EnergyTerm {
     return force.dot(v);
   }
 
-  /// Vertices per stencil k (1 to 4); 0 for a term without a Hessian (a linear function).
+  /// Vertices per stencil k (1 to kMostVertices); 0 for a term without a Hessian (a linear function).
   virtual int stencil_size() const { return 0; }
   /// Vertex indices, k per stencil.
   virtual std::span<const int> stencils() const { return {}; }
   /// True if the element Hessians never change: they are computed once.
   virtual bool constant_hessian() const { return false; }
 
-  /// Writes scale * element Hessian of every stencil: its upper 3x3 blocks (a, b), a <= b, row by row, each
-  /// column-major: 9 k (k + 1) / 2 doubles per stencil.
-  virtual void element_hessians(const Eigen::VectorXd& q, double scale, Definiteness definiteness,
+  /// Writes scale * element Hessian of the stencils in `range`: the upper 3x3 blocks (a, b), a <= b, of each, row by
+  /// row, column-major: 9 k (k + 1) / 2 doubles per stencil. Several threads may ask for different ranges at once.
+  virtual void element_hessians(const Eigen::VectorXd& q, double scale, Definiteness definiteness, StencilRange range,
                                 double* blocks) const {
-    static_cast<void>(q), static_cast<void>(scale), static_cast<void>(definiteness), static_cast<void>(blocks);
+    static_cast<void>(q), static_cast<void>(scale), static_cast<void>(definiteness), static_cast<void>(range),
+        static_cast<void>(blocks);
   }
 
   /// A solver proposes to go from q to q + dq. A term whose derivative turns sharply on the way (friction) may answer
@@ -90,5 +98,13 @@ class EnergyTerm {
 
 /// Doubles that one stencil of k vertices writes in element_hessians.
 constexpr int hessian_doubles(int k) { return 9 * k * (k + 1) / 2; }
+
+inline int stencil_count(const EnergyTerm& term) {
+  return term.stencil_size() > 0 ? static_cast<int>(term.stencils().size()) / term.stencil_size() : 0;
+}
+
+/// Element Hessians of all stencils, one after the other; in parallel.
+void all_element_hessians(const EnergyTerm& term, const Eigen::VectorXd& q, double scale, Definiteness definiteness,
+                          double* blocks);
 
 }  // namespace softreel::sim

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/block_matrix.h"
@@ -17,8 +18,10 @@ struct ScaledTerm {
   double scale = 1;
 };
 
-/// The sparsity pattern comes from the stencils of the terms and stays; every block sums its contributions in a fixed
-/// order, so the result has the same bits for any number of threads.
+/// The sparsity pattern comes from the stencils of the terms and stays. The stencils of every term are cut into parts,
+/// as many for any number of threads; a part adds its element Hessians up while they are in the cache, straight into
+/// the matrix where no other part has a share, else into a place of its own, and these are summed in the order of
+/// parts. So the result has the same bits for any number of threads, and element Hessians never go to memory.
 class HessianAssembler {
  public:
   /// `terms`: in the order in which `assemble` will get them. `vertices`: block rows.
@@ -33,14 +36,25 @@ class HessianAssembler {
   long evaluations() const { return evaluations_; }
 
  private:
-  BlockMatrix pattern_;                  // without values
-  std::vector<int> upper_, mirror_;      // positions of blocks (i, j), i <= j, and of their transposes
-  std::vector<int> upper_row_;           // row of each upper block
-  std::vector<size_t> gather_start_;     // per upper block, offsets into gather_
-  std::vector<std::uint32_t> gather_;    // slot index * 2 + (1 if to be transposed)
-  std::vector<size_t> term_slot_start_;  // per term, in doubles
-  std::vector<double> slots_;
-  std::vector<double> constant_scale_;  // per term: the scale its slots hold, 0 if they hold nothing lasting
+  struct TermPlan {
+    std::vector<std::uint32_t> targets;  // per stencil and upper block of it: where it goes, see Target
+    std::vector<double> constant;        // of a constant Hessian: its blocks
+    double constant_scale = 0;           // and the factor in them; 0: there is nothing yet
+  };
+  struct Target;
+
+  void lay_out(size_t n, std::span<const std::pair<int, int>> blocks);
+  void add_part(int part, std::span<const ScaledTerm> terms, Definiteness definiteness, BlockMatrix& matrix);
+  static void add(const double* blocks, std::span<const std::uint32_t> targets, double* matrix, double* shared);
+
+  BlockMatrix pattern_;              // without values
+  std::vector<int> upper_, mirror_;  // positions of blocks (i, j), i <= j, and of their transposes
+  std::vector<int> upper_row_;       // row of each upper block
+  std::vector<size_t> share_start_;  // per upper block, offsets into the shares of several parts; none: it has one part
+  std::vector<double> shared_;       // 9 doubles each
+  std::vector<std::uint8_t> empty_;  // per upper block: no stencil has it
+  std::vector<TermPlan> plans_;      // as the terms
+  int parts_ = 1;
   long evaluations_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/element_term.h"
+#include "sim/materials/invariants.h"
 #include "sim/principal.h"
 
 namespace softreel::sim {
@@ -13,7 +14,9 @@ namespace softreel::sim {
 ///   double psi(const Deformation<D>&) const;            [J/m^3]
 ///   Deformation<D> pk1(const Deformation<D>&) const;    d psi / dF [Pa]
 ///   PrincipalHessian<D> hessian(const Stretches<D>&) const;
-/// or, if that is the same for every F, a hessian() without argument, whose frame are the axes.
+/// or, if that is the same for every F, a hessian() without argument, whose frame are the axes. A solid's material that
+/// is a function of |F|^2 and J may also have
+///   NormAndVolume norm_and_volume(const Deformation<3>&) const;
 template <class Material, int D>
 struct SimplexKernel {
   static constexpr int kCorners = D + 1;
@@ -48,18 +51,50 @@ struct SimplexKernel {
       if (definiteness == Definiteness::kClamped) clamp(h);
       set_blocks(
           h, r.gradient.transpose(), [&](const Eigen::Matrix3d& N) -> Eigen::Matrix3d { return r.volume * N; }, out);
+    } else if constexpr (kClosedForm) {
+      if (definiteness == Definiteness::kExact) return exact(r, material.norm_and_volume(deformation(X, r)), out);
+      principal(r, deformation(X, r), definiteness, out);
     } else {
-      const Principal<D> p = principal_stretches(deformation(X, r));
-      PrincipalHessian<D> h = material.hessian(p.sigma);
-      if (definiteness == Definiteness::kClamped) clamp(h);
-      const auto turned = [&](const Eigen::Matrix3d& N) -> Eigen::Matrix3d {
-        return r.volume * p.U * N * p.U.transpose();
-      };
-      set_blocks(h, p.V.transpose() * r.gradient.transpose(), turned, out);
+      principal(r, deformation(X, r), definiteness, out);
     }
   }
 
  private:
+  static constexpr bool kClosedForm = D == 3 && requires(const Material& m, const Deformation<D>& F) {
+    m.norm_and_volume(F);
+  };
+
+  void principal(const Rest& r, const Deformation<D>& F, Definiteness definiteness, ElementHessian<D + 1>& out) const {
+    const Principal<D> p = principal_stretches(F);
+    PrincipalHessian<D> h = material.hessian(p.sigma);
+    if (definiteness == Definiteness::kClamped) clamp(h);
+    const auto turned = [&](const Eigen::Matrix3d& N) -> Eigen::Matrix3d {
+      return r.volume * p.U * N * p.U.transpose();
+    };
+    set_blocks(h, p.V.transpose() * r.gradient.transpose(), turned, out);
+  }
+
+  /// Of psi = g(|F|^2) + h(J), without a singular value decomposition: with f_a = F grad N_a and c_a = dJ/dF grad N_a,
+  /// K_ab = w (2 g' grad N_a . grad N_b I + 4 g'' f_a f_b^T + h'' c_a c_b^T - h' [F (grad N_a x grad N_b)]_x).
+  static void exact(const Rest& r, const NormAndVolume& m, ElementHessian<D + 1>& out) {
+    const Eigen::Matrix3d g = r.gradient.transpose();
+    const Eigen::Matrix3d f = m.F * g, c = m.dJ * g;
+    for (int a = 0; a < 3; ++a)
+      for (int b = a; b < 3; ++b) {
+        Eigen::Matrix3d K = (4 * m.ddg * r.volume * f.col(a)) * f.col(b).transpose() +
+                            (m.ddh * r.volume * c.col(a)) * c.col(b).transpose();
+        K.diagonal().array() += 2 * m.dg * r.volume * g.col(a).dot(g.col(b));
+        if (a != b) {
+          const Eigen::Vector3d s = -m.dh * r.volume * (m.F * g.col(a).cross(g.col(b)));
+          K(0, 1) -= s(2), K(1, 0) += s(2);
+          K(0, 2) += s(1), K(2, 0) -= s(1);
+          K(1, 2) -= s(0), K(2, 1) += s(0);
+        }
+        out.template block<3, 3>(3 * (a + 1), 3 * (b + 1)) = K;
+      }
+    set_first_rows(out);
+  }
+
   static Deformation<D> deformation(const Corners<D + 1>& X, const Rest& r) {
     Deformation<D> Ds;  // from corner 0, so that large coordinates do not cost digits
     for (int a = 0; a < D; ++a) Ds.col(a) = X.col(a + 1) - X.col(0);
@@ -97,7 +132,11 @@ struct SimplexKernel {
         out.template block<3, 3>(3 * (a + 1), 3 * (c + 1)) = turned(N);
       }
     }
-    // A translation costs nothing: the rows of corner 0 are minus the sum of the others.
+    set_first_rows(out);
+  }
+
+  /// A translation costs nothing: the rows of corner 0 are minus the sum of the others.
+  static void set_first_rows(ElementHessian<D + 1>& out) {
     const auto K = [&](int a, int c) { return out.template block<3, 3>(3 * a, 3 * c); };
     if constexpr (D == 3) {
       K(0, 1) = -(K(1, 1) + K(1, 2).transpose() + K(1, 3).transpose());

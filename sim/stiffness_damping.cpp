@@ -13,7 +13,7 @@ class StiffnessDamping final : public EnergyTerm {
       : elastic_(elastic),
         beta_(beta),
         k_(elastic.stencil_size()),
-        elements_(k_ > 0 ? static_cast<int>(elastic.stencils().size()) / k_ : 0),
+        elements_(stencil_count(elastic)),
         blocks_(static_cast<size_t>(elements_) * static_cast<size_t>(hessian_doubles(k_))),
         gradient_slots_(elastic.stencils().size() * 3),
         vertex_slots_(elastic.stencils()) {}
@@ -24,7 +24,7 @@ class StiffnessDamping final : public EnergyTerm {
   std::span<const int> stencils() const override { return elastic_.stencils(); }
 
   void begin_step(const StepContext& context) override {
-    elastic_.element_hessians(context.x_predicted, beta_, Definiteness::kClamped, blocks_.data());
+    all_element_hessians(elastic_, context.x_predicted, beta_, Definiteness::kClamped, blocks_.data());
   }
 
   double value(const Eigen::VectorXd& v) const override {
@@ -43,9 +43,11 @@ class StiffnessDamping final : public EnergyTerm {
     vertex_slots_.add(gradient_slots_, gradient);
   }
 
-  void element_hessians(const Eigen::VectorXd&, double scale, Definiteness, double* blocks) const override {
-    parallel_for(static_cast<int>(blocks_.size()), Work::kVector,
-                 [&](int i) { blocks[i] = scale * blocks_[static_cast<size_t>(i)]; });
+  void element_hessians(const Eigen::VectorXd&, double scale, Definiteness, StencilRange range,
+                        double* blocks) const override {
+    const auto doubles = static_cast<size_t>(hessian_doubles(k_));
+    const double* own = blocks_.data() + doubles * static_cast<size_t>(range.first);
+    for (size_t i = 0; i < doubles * static_cast<size_t>(range.count); ++i) blocks[i] = scale * own[i];
   }
 
  private:

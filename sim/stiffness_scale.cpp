@@ -14,7 +14,7 @@ Eigen::VectorXd stiffness_scale(std::span<const std::unique_ptr<EnergyTerm>> pot
     const auto stencils = term->stencils();
     const size_t elements = stencils.size() / static_cast<size_t>(k);
     blocks.resize(elements * static_cast<size_t>(hessian_doubles(k)));
-    term->element_hessians(x, 1.0, Definiteness::kClamped, blocks.data());
+    all_element_hessians(*term, x, 1.0, Definiteness::kClamped, blocks.data());
     const double* block = blocks.data();
     for (size_t e = 0; e < elements; ++e)
       for (int a = 0; a < k; ++a)

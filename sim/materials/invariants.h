@@ -47,6 +47,13 @@ struct VolumeRatio<2> {
   Deformation<2> gradient;
 };
 
+/// Derivatives of psi = g(|F|^2) + h(J) of a solid by |F|^2 and J [Pa], with what a Hessian in the axes of space is
+/// made of.
+struct NormAndVolume {
+  double dg, ddg, dh, ddh;
+  Deformation<3> F, dJ;
+};
+
 /// The Hessian of psi = f(t) + g(I2) + h(J), summand by summand.
 template <int D>
 class InvariantHessian {

@@ -46,6 +46,12 @@ class StableNeoHookean {
         .sum();
   }
 
+  NormAndVolume norm_and_volume(const Deformation<3>& F) const requires(D == 3) {
+    const double s = 1 / (F.squaredNorm() + 1);
+    const VolumeRatio<3> volume(F);
+    return {0.5 * mu_ * (1 - s), 0.5 * mu_ * s * s, lambda_ * (volume.J - a_), lambda_, F, volume.gradient};
+  }
+
  private:
   double mu_, lambda_, a_;
 };

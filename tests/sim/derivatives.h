@@ -28,7 +28,7 @@ inline std::vector<double> all_blocks(const sim::EnergyTerm& term, const Eigen::
   if (k == 0) return {};
   std::vector<double> blocks(term.stencils().size() / k *
                              static_cast<size_t>(sim::hessian_doubles(term.stencil_size())));
-  term.element_hessians(q, 1.0, d, blocks.data());
+  sim::all_element_hessians(term, q, 1.0, d, blocks.data());
   return blocks;
 }
 
