@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/incremental_potential.h"
-#include "sim/minimizer.h"
+#include "sim/minimizer_settings.h"
 
 namespace softreel::sim {
 
@@ -24,7 +24,7 @@ class ConvergenceTest {
   /// Throws std::invalid_argument for an unknown name in settings.stop.
   ConvergenceTest(const Model& model, const IncrementalPotential& phi, const MinimizerSettings& settings);
 
-  /// Begins a solve at y with gradient g.
+  /// Begins a solve at y with gradient g, which its tolerance is relative to.
   void start(const Eigen::VectorXd& y, const Eigen::VectorXd& g);
   /// Takes the scale of rounding from the matrix where the iteration is, contact and damping included.
   void see_hessian(const BlockMatrix& H, const Eigen::VectorXd& y);

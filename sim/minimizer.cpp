@@ -1,5 +1,7 @@
 #include "sim/minimizer.h"
 
+#include <algorithm>
+
 #include "sim/convergence_test.h"
 #include "sim/line_search.h"
 #include "sim/method_table.h"
@@ -39,6 +41,51 @@ constexpr std::array kMinimizers = {
 };
 
 }  // namespace
+
+Minimizer::Minimizer(const Model& model, IncrementalPotential& phi, const MinimizerSettings& settings)
+    : model_(model), phi_(phi), test_(model, phi, settings), max_iterations_(settings.max_iterations) {}
+
+void Minimizer::minimize(Eigen::VectorXd& y, const Eigen::VectorXd* guess, StepReport& report) {
+  Failure failure;
+  run(y, guess, report, failure);
+  report.converged = failure.empty();
+  report.reason = failure;
+}
+
+void Minimizer::run(Eigen::VectorXd& y, const Eigen::VectorXd* guess, StepReport& report, Failure& failure) {
+  failure = begin();
+  if (!failure.empty()) return;
+  phi_.gradient(y, g_, report);
+  test_.start(y, g_);
+  if (guess) {
+    phi_.gradient(*guess, guess_gradient_, report);
+    if (guess_gradient_.squaredNorm() < g_.squaredNorm()) {
+      y = *guess;
+      g_.swap(guess_gradient_);
+    }
+  }
+  for (int iteration = 0;; ++iteration) {
+    const bool stop_after_step = !test_.fired().empty();
+    failure = test_.look(g_);
+    if (!failure.empty()) {
+      failure = not_finite(failure);
+      return;
+    }
+    if (stop_after_step || !test_.fired().empty()) {
+      report.residual = std::max(report.residual, test_.residual());
+      report.stopped_by = test_.fired();
+      return end();
+    }
+    if (iteration == max_iterations_) {
+      failure = std::string(title()) + " did not converge in " + std::to_string(iteration) + " iterations on '" +
+                test_.slowest() + "'" + std::string(advice());
+      return;
+    }
+    failure = advance(iteration, y, report);
+    if (!failure.empty()) return;
+    phi_.gradient(y, g_, report);
+  }
+}
 
 Catalogue minimizers() { return catalogue_of<kMinimizers>(); }
 

@@ -103,6 +103,7 @@ StepReport Simulation::attempt(double h) {
 }
 
 void Simulation::forget() {
+  start_guess_.forget();
   if (implicit())
     method_.implicit_method->forget();
   else
@@ -169,8 +170,15 @@ void Simulation::implicit_step(double h, StepReport& report) {
     place(here);
     if (phi_->value(here, report) < phi_->value(y, report)) y.swap(here);
   }
-  minimizer_->minimize(y, report);
+  const Stage& stage = phi_->stage();
+  const bool guessed = !still && start_guess_.any();
+  if (guessed) {
+    start_guess_.guess(stage, h, guess_);
+    place(guess_);
+  }
+  minimizer_->minimize(y, guessed ? &guess_ : nullptr, report);
   if (!report.converged) return;
+  if (!still) start_guess_.accept(stage, h, y);
   method.finish(y, h, state_);
   if (pins_.any()) {
     pins_.place(end, state_.x);
@@ -205,6 +213,8 @@ std::vector<double> Simulation::memory() const {
   std::vector<double> saved{dissipated_, static_cast<double>(history.size())};
   saved.insert(saved.end(), history.begin(), history.end());
   if (minimizer_) {
+    const std::vector<double> guess = start_guess_.memory();
+    saved.insert(saved.end(), guess.begin(), guess.end());
     const std::vector<double> minimizer = minimizer_->memory();
     saved.insert(saved.end(), minimizer.begin(), minimizer.end());
   }
@@ -222,7 +232,7 @@ void Simulation::restore(const State& state, std::span<const double> memory) {
     method_.implicit_method->restore(memory.subspan(2, history));
   else
     method_.explicit_method->restore(memory.subspan(2, history));
-  if (minimizer_) minimizer_->restore(memory.subspan(2 + history));
+  if (minimizer_) minimizer_->restore(start_guess_.restore(memory.subspan(2 + history)));
 }
 
 }  // namespace softreel::sim

@@ -12,6 +12,7 @@
 #include "sim/integrators.h"
 #include "sim/minimizer.h"
 #include "sim/model.h"
+#include "sim/start_guess.h"
 #include "sim/step_report.h"
 
 namespace softreel::sim {
@@ -76,7 +77,8 @@ class Simulation {
   std::unique_ptr<IncrementalPotential> phi_;  // of implicit methods
   std::unique_ptr<Minimizer> minimizer_;
   std::unique_ptr<MassMatrix> mass_;  // of explicit methods
-  Eigen::VectorXd predicted_;
+  Eigen::VectorXd predicted_, guess_;
+  StartGuess start_guess_;  // of implicit methods
 };
 
 }  // namespace softreel::sim

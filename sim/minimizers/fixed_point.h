@@ -1,6 +1,5 @@
 #pragma once
 // Fixed-point iteration for an implicit step.
-#include "sim/convergence_test.h"
 #include "sim/minimizer.h"
 
 namespace softreel::sim {
@@ -16,14 +15,16 @@ class FixedPoint final : public Minimizer {
   /// Throws std::invalid_argument for a line search or test that does not go with it.
   FixedPoint(const Model& model, IncrementalPotential& phi, const MinimizerSettings& settings);
 
-  void minimize(Eigen::VectorXd& y, StepReport& report) override;
-
  private:
-  const Model& model_;
-  IncrementalPotential& phi_;
-  int max_iterations_;
-  ConvergenceTest test_;
-  Eigen::VectorXd g_, d_;
+  Failure begin() override;
+  Failure advance(int iteration, Eigen::VectorXd& y, StepReport& report) override;
+  Failure not_finite(const Failure&) const override { return diverges(); }
+  std::string_view title() const override { return "fixed-point iteration"; }
+  Failure diverges() const;
+
+  double last_ = 0, factor_ = 0;  // |d|_M of the last iteration [kg^1/2 m]; of the one before it, by which it grew
+  int growths_ = 0;               // in a row
+  Eigen::VectorXd d_;
 };
 
 }  // namespace softreel::sim

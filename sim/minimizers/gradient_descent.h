@@ -1,6 +1,5 @@
 #pragma once
 // Gradient descent on the incremental potential.
-#include "sim/convergence_test.h"
 #include "sim/line_search.h"
 #include "sim/minimizer.h"
 
@@ -15,15 +14,15 @@ class GradientDescent final : public Minimizer {
 
   GradientDescent(const Model& model, IncrementalPotential& phi, const MinimizerSettings& settings);
 
-  void minimize(Eigen::VectorXd& y, StepReport& report) override;
-
  private:
-  const Model& model_;
-  IncrementalPotential& phi_;
-  int max_iterations_;
-  ConvergenceTest test_;
+  Failure begin() override;
+  Failure advance(int iteration, Eigen::VectorXd& y, StepReport& report) override;
+  std::string_view title() const override { return "gradient descent"; }
+  std::string_view advice() const override { return "; on stiff bodies it needs thousands: take newton"; }
+
   LineSearch search_;
-  Eigen::VectorXd g_, d_;
+  double first_ = 1;  // step that the line search tries first
+  Eigen::VectorXd diagonal_, d_;
 };
 
 }  // namespace softreel::sim

@@ -10,10 +10,14 @@ namespace {
 
 constexpr int kClampedIterations = 8;  // of a solve, after which clamping may be what slows it down
 constexpr int kClampedAgain = 4;       // after an exact Hessian that was indefinite
+constexpr int kLongestMistrust = 31;   // solves that begin clamped, after exact ones that were indefinite
 constexpr int kMostProposals = 4;      // of a direction in one iteration
-// A linear solve goes as far as the whole step needs, but no further than linear_tolerance at once: the
-// next Newton iteration has a better matrix.
+// A linear solve goes as far as the whole step needs, but no further than its own matrix is worth: the next Newton
+// iteration has a better one (Eisenstat and Walker 1996, "Choosing the forcing terms in an inexact Newton method",
+// choice 2). Where less than a decade is missing to the end, the way to it costs less than another matrix.
 constexpr double kLinearShare = 0.3;
+constexpr double kFirstForcing = 1e-2, kForcingFactor = 0.9;
+constexpr double kNearTheEnd = 10;
 // Shifts, relative to the mean of the diagonal.
 constexpr double kSmallestShift = 1e-8, kLargestShift = 1e6, kShiftGrowth = 10;
 
@@ -22,8 +26,7 @@ struct Entry {
 };
 // In the order of Newton::Modification.
 constexpr std::array kModifications = {
-    Entry{{"auto", "clamped at first, then exact where that is positive definite", "as the one it takes",
-           "Longva et al. 2023"}},
+    Entry{{"auto", "exact where that is positive definite, else clamped", "as the one it takes", "Longva et al. 2023"}},
     Entry{{"clamped", "negative eigenvalues of each element's Hessian set to zero", "none beside the element",
            "Teran, Sifakis, Irving, Fedkiw 2005, section 6"}},
     Entry{{"shifted", "exact Hessian plus c I, c as large as needed", "1 factorization a trial of c",
@@ -36,13 +39,11 @@ Catalogue hessian_modifications() { return catalogue_of<kModifications>(); }
 
 Newton::Newton(const Model& model, IncrementalPotential& phi, const LinearSettings& linear_solver,
                const MinimizerSettings& settings)
-    : model_(model),
-      phi_(phi),
-      settings_(settings),
+    : Minimizer(model, phi, settings),
+      linear_tolerance_(settings.linear_tolerance),
       modification_(
           static_cast<Modification>(&find_method(kModifications, settings.hessian, "Hessian") - kModifications.data())),
       linear_(make_linear_solver(linear_solver)),
-      test_(model, phi, settings),
       search_(phi, settings.line_search) {}
 
 /// Builds the pattern and the symbolic work before the first step needs it (a resumed run restores into it).
@@ -59,48 +60,54 @@ void Newton::prepare() {
 }
 
 std::vector<double> Newton::memory() const {
-  std::vector<double> saved{shift_};
+  std::vector<double> saved{shift_, static_cast<double>(mistrust_), static_cast<double>(next_mistrust_)};
   const std::vector<double> linear = linear_->memory();
   saved.insert(saved.end(), linear.begin(), linear.end());
   return saved;
 }
 
 void Newton::restore(std::span<const double> saved) {
-  if (saved.empty()) throw std::invalid_argument("memory of another minimizer");
+  if (saved.size() < 3) throw std::invalid_argument("memory of another minimizer");
   prepare();
   shift_ = saved[0];
-  linear_->restore(saved.subspan(1));
+  mistrust_ = static_cast<int>(saved[1]);
+  next_mistrust_ = static_cast<int>(saved[2]);
+  linear_->restore(saved.subspan(3));
 }
 
-void Newton::minimize(Eigen::VectorXd& y, StepReport& report) {
-  const auto fail = [&](const std::string& why) {
-    report.converged = false;
-    report.reason = why;
-  };
+Minimizer::Failure Newton::begin() {
   next_exact_ = kClampedIterations;
-  definiteness_ = modification_ == Modification::kShifted ? Definiteness::kExact : Definiteness::kClamped;
-  phi_.gradient(y, g_, report);
-  test_.start(y, g_);
-  for (int iteration = 0;; ++iteration) {
-    const bool stop_after_step = !test_.fired().empty();
-    std::string failure = test_.look(g_);
-    if (!failure.empty()) return fail(failure);
-    if (stop_after_step || !test_.fired().empty()) {
-      report.residual = std::max(report.residual, test_.residual());
-      report.stopped_by = test_.fired();
-      return;
-    }
-    if (iteration == settings_.max_iterations)
-      return fail("Newton's method did not converge in " + std::to_string(iteration) + " iterations on '" +
-                  test_.slowest() + "'");
-    ++report.newton_iterations;
-    if (modification_ == Modification::kAuto && iteration == next_exact_) definiteness_ = Definiteness::kExact;
-    if (!step(iteration, y, report, failure)) {
-      shift_ = 0;
-      return fail(failure);
-    }
-    phi_.gradient(y, g_, report);
-  }
+  const bool clamped =
+      modification_ == Modification::kClamped || (modification_ == Modification::kAuto && mistrust_ > 0);
+  definiteness_ = clamped ? Definiteness::kClamped : Definiteness::kExact;
+  if (mistrust_ > 0) --mistrust_;
+  mistrusted_ = clamped;
+  return {};
+}
+
+void Newton::end() {
+  if (!mistrusted_) next_mistrust_ = 0;
+}
+
+Minimizer::Failure Newton::advance(int iteration, Eigen::VectorXd& y, StepReport& report) {
+  const double norm = g_.norm(), factor = norm / last_norm_;
+  forcing_ = iteration == 0 ? kFirstForcing : std::min(kFirstForcing, kForcingFactor * factor * factor);
+  last_norm_ = norm;
+  ++report.newton_iterations;
+  if (modification_ == Modification::kAuto && iteration == next_exact_) definiteness_ = Definiteness::kExact;
+  Failure failure;
+  if (step(iteration, y, report, failure)) return {};
+  shift_ = 0;
+  return failure;
+}
+
+/// kAuto only: the exact Hessian has shown itself indefinite, so clamped ones for a while: the longer, the more often
+/// that happens.
+void Newton::clamp_for_a_while(int iteration) {
+  definiteness_ = Definiteness::kClamped;
+  next_exact_ = iteration + 1 + kClampedAgain;
+  mistrusted_ = true;
+  mistrust_ = next_mistrust_ = std::min(2 * next_mistrust_ + 1, kLongestMistrust);
 }
 
 /// One iteration from y, where the gradient is g_. Returns false, with the reason, if no way down was found.
@@ -114,9 +121,10 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
   model_at();
   model_gradient_ = g_;
   bool found = direction(y, report, failure);
-  if (!found && modification_ == Modification::kAuto && definiteness_ == Definiteness::kExact) {
-    definiteness_ = Definiteness::kClamped;
-    next_exact_ = iteration + 1 + kClampedAgain;
+  const auto may_clamp = [&] { return modification_ == Modification::kAuto && definiteness_ == Definiteness::kExact; };
+  // One that conjugate gradients did not see to be indefinite may still give a way up.
+  if (may_clamp() && (!found || !(g_.dot(d_) < 0))) {
+    clamp_for_a_while(iteration);
     model_at();
     found = direction(y, report, failure);
   }
@@ -148,6 +156,9 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
       phi_.soften();
       model_at();
       model_gradient_ = g_;
+    } else if (may_clamp()) {
+      clamp_for_a_while(iteration);
+      model_at();
     } else if (!shift_more()) {
       return false;
     }
@@ -165,8 +176,12 @@ bool Newton::shift_more() {
 /// How far a linear solve with the model's gradient has to go.
 std::vector<double> Newton::linear_targets() const {
   std::vector<double> result = test_.body_norms(model_gradient_);
-  for (size_t b = 0; b < result.size(); ++b)
-    result[b] = std::max(kLinearShare * test_.targets()[b], settings_.linear_tolerance * result[b]);
+  const double forcing = std::max(forcing_, linear_tolerance_);
+  for (size_t b = 0; b < result.size(); ++b) {
+    const double end = kLinearShare * test_.targets()[b];
+    const bool near = forcing * result[b] < kNearTheEnd * end;
+    result[b] = std::max(end, (near ? linear_tolerance_ : forcing) * result[b]);
+  }
   return result;
 }
 

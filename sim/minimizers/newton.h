@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/convergence_test.h"
 #include "sim/line_search.h"
 #include "sim/linear_solver.h"
 #include "sim/minimizer.h"
@@ -14,13 +13,12 @@ namespace softreel::sim {
 
 /// Each iteration solves H d = -g and searches along d.
 ///
-/// `hessian = "auto"`: clamped at first, which is robust far from the minimum; after some iterations exact where that
-/// is positive definite, because under load clamping costs the quadratic convergence ("projection on demand", Longva et
-/// al. 2023). "clamped": every element's Hessian is made positive semi-definite by itself, which
-/// costs nothing beside the element and seldom loses much. "shifted": the exact Hessian plus c I (Nocedal and Wright
-/// 2006, section 3.4), c growing tenfold until the factorization succeeds and the search goes down, and falling again
-/// when it does. The clamped one is shifted too where it is singular (a free body at rest, a slack sheet in
-/// equilibrium).
+/// `hessian = "auto"`: exact where that is positive definite, else clamped ("projection on demand", Longva et al.
+/// 2023): clamping costs the quadratic convergence, and is needed only far from a minimum. Solves that follow begin as
+/// the last one ended. "clamped": every element's Hessian is made positive semi-definite by itself, which costs nothing
+/// beside the element and seldom loses much. "shifted": the exact Hessian plus c I (Nocedal and Wright 2006,
+/// section 3.4), c growing tenfold until the factorization succeeds and the search goes down, and falling again when it
+/// does. The clamped one is shifted too where it is singular (a free body at rest, a slack sheet in equilibrium).
 class Newton final : public Minimizer {
  public:
   static constexpr MethodInfo kInfo = {"newton", "few iterations at any stiffness",
@@ -30,32 +28,39 @@ class Newton final : public Minimizer {
   Newton(const Model& model, IncrementalPotential& phi, const LinearSettings& linear_solver,
          const MinimizerSettings& settings);
 
-  void minimize(Eigen::VectorXd& y, StepReport& report) override;
   std::vector<double> memory() const override;
   void restore(std::span<const double> saved) override;
 
  private:
+  Failure begin() override;
+  Failure advance(int iteration, Eigen::VectorXd& y, StepReport& report) override;
+  void end() override;
+  std::string_view title() const override { return "Newton's method"; }
+
   void prepare();
   bool step(int iteration, Eigen::VectorXd& y, StepReport& report, std::string& failure);
+  void clamp_for_a_while(int iteration);
   bool shift_more();
   bool direction(const Eigen::VectorXd& y, StepReport& report, std::string& failure);
   std::vector<double> linear_targets() const;
 
-  const Model& model_;
-  IncrementalPotential& phi_;
-  MinimizerSettings settings_;
+  double linear_tolerance_;
   enum class Modification { kAuto, kClamped, kShifted } modification_;
   Definiteness definiteness_ = Definiteness::kClamped;
-  int next_exact_ = 0;  // iteration at which kAuto tries the exact Hessian
+  int next_exact_ = 0;       // iteration at which kAuto tries the exact Hessian
+  int mistrust_ = 0;         // so many solves more begin clamped with kAuto
+  int next_mistrust_ = 0;    // and so many after the next exact Hessian that is indefinite: this twice, and one
+  bool mistrusted_ = false;  // in this solve
+  double forcing_ = 0;       // relative residual that this iteration's linear solve is worth
+  double last_norm_ = 0;     // of the gradient, one iteration ago
   std::unique_ptr<LinearSolver> linear_;
-  ConvergenceTest test_;
   LineSearch search_;
   bool analysed_ = false;
   double shift_ = 0;          // c, relative to the mean diagonal at rest; kept from step to step
   bool indefinite_ = false;   // why the last direction was not found
   double applied_shift_ = 0;  // what of it is in H_ [kg]
   BlockMatrix H_;
-  Eigen::VectorXd g_, model_gradient_, d_;
+  Eigen::VectorXd model_gradient_, d_;
 };
 
 }  // namespace softreel::sim
