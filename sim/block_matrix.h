@@ -9,7 +9,7 @@ struct BlockMatrix {
   std::vector<int> row_start;  ///< n + 1 offsets into `column`
   std::vector<int> column;     ///< block column indices, increasing within a row
   std::vector<int> diagonal;   ///< position of block (i, i)
-  std::vector<double> values;  ///< 9 doubles per block, column-major
+  std::vector<double> values;  ///< 9 doubles per block, column-major; room for one more at the end
 
   int rows() const { return static_cast<int>(diagonal.size()); }  ///< block rows n
   Eigen::Map<Eigen::Matrix3d> block(int k) { return Eigen::Map<Eigen::Matrix3d>(values.data() + 9 * size_t(k)); }

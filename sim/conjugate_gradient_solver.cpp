@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <type_traits>
 
 #include "sim/linear_input.h"
 #include "sim/parallel.h"
@@ -10,12 +12,14 @@
 namespace softreel::sim {
 namespace {
 
-/// Block rows [first, first + count) of one body, worked on by one thread in one go: an iteration makes three passes
-/// over the vectors instead of one for each operation.
-struct Chunk {
-  int first, count;
-  size_t body;
-};
+// Below so many rows a matrix stays in the cache, and its values need no second copy.
+constexpr int kFewRows = 600;
+// Targets below this part of b are better reached in double precision from the start.
+constexpr double kSingleTarget = 1e-5;
+constexpr double kSmallestSingle = 1e-20;  // of b, far from the ends of the range of single precision
+constexpr double kRefinementPays = 0.1;
+
+using Chunk = ConjugateGradientSolver::Chunk;
 
 std::vector<Chunk> chunks_of(std::span<const BodyRange> bodies, int rows) {
   constexpr int kRows = 512;
@@ -44,7 +48,38 @@ ConjugateGradientSolver::ConjugateGradientSolver(const LinearSettings& settings)
 
 void ConjugateGradientSolver::factorize(const BlockMatrix& A) {
   A_ = &A;
+  single_.clear();
   preconditioner_.set(A);
+}
+
+/// r . r of every chunk.
+void ConjugateGradientSolver::measure() {
+  for_chunks(chunks_, A_->rows(), [&](size_t c, const Chunk& chunk) {
+    rr_[c] = r_.segment(3 * chunk.first, 3 * chunk.count).squaredNorm();
+  });
+}
+
+/// The residual of every body within its target?
+bool ConjugateGradientSolver::within(const LinearTargets& targets) {
+  norms_.assign(std::max<size_t>(1, targets.bodies.size()), 0.0);
+  for (size_t c = 0; c < chunks_.size(); ++c) norms_[chunks_[c].body] += rr_[c];
+  for (size_t body = 0; body < targets.residual.size(); ++body)
+    if (!(norms_[body] <= targets.residual[body] * targets.residual[body])) return false;
+  return true;
+}
+
+bool ConjugateGradientSolver::single_precision_serves(const LinearTargets& targets) {
+  if (A_->rows() < kFewRows || targets.residual.empty() || !preconditioner_->diagonal_blocks()) return false;
+  if (const double size = norm(r_); !(size > kSmallestSingle && size < 1 / kSmallestSingle)) return false;
+  for (size_t body = 0; body < targets.residual.size(); ++body)
+    if (!(targets.residual[body] >= kSingleTarget * std::sqrt(norms_[body]))) return false;
+  return true;
+}
+
+void ConjugateGradientSolver::make_single() {
+  single_.set(*A_);
+  const double* blocks = preconditioner_->diagonal_blocks();
+  float_.blocks.assign(blocks, blocks + 9 * static_cast<size_t>(A_->rows()));
 }
 
 LinearReport ConjugateGradientSolver::solve(const Eigen::VectorXd& b, const LinearTargets& targets,
@@ -56,98 +91,135 @@ LinearReport ConjugateGradientSolver::solve(const Eigen::VectorXd& b, const Line
     refuse(report, report.reason, *A_, b);
     return report;
   }
-  const int n = A_->rows();
-  const double* blocks = preconditioner_->diagonal_blocks();
-  const std::vector<Chunk> chunks = chunks_of(targets.bodies, n);
-  std::vector<double> rz_of(chunks.size()), rr_of(chunks.size()), pAp_of(chunks.size());
-  std::vector<double> rr(std::max<size_t>(1, targets.bodies.size()));
+  chunks_ = chunks_of(targets.bodies, A_->rows());
+  for (auto* parts : {&rz_, &rr_, &pAp_}) parts->resize(chunks_.size());
   x.setZero(b.size());
   r_ = b;
-  z_.resize(b.size());
-  Ap_.resize(b.size());
-
-  // z = P^-1 r (by blocks), r . z and r . r of a chunk
-  const auto precondition = [&](size_t c, const Chunk& chunk) {
-    double rz = 0, squared = 0;
-    for (int i = chunk.first; i < chunk.first + chunk.count; ++i) {
-      const Eigen::Map<const Eigen::Matrix3d> inverse(blocks + 9 * static_cast<size_t>(i));
-      const Eigen::Vector3d r = r_.segment<3>(3 * i);
-      const Eigen::Vector3d z = inverse * r;
-      z_.segment<3>(3 * i) = z;
-      rz += r.dot(z);
-      squared += r.squaredNorm();
+  measure();
+  bool done = within(targets), single = single_precision_serves(targets);
+  if (single && single_.empty()) make_single();
+  for (double last = norm(r_); !done;) {
+    End end;
+    if (single) {
+      float_.r = r_.cast<float>();
+      end = iterate(targets, float_, report);
+    } else {
+      double_.r = r_;
+      end = iterate(targets, double_, report);
     }
-    rz_of[c] = rz;
-    rr_of[c] = squared;
-  };
-  // The same for a preconditioner that is more than blocks: a pass of its own.
-  const auto precondition_all = [&] {
-    preconditioner_->apply(r_, z_);
-    for_chunks(chunks, n, [&](size_t c, const Chunk& chunk) {
-      const auto r = r_.segment(3 * chunk.first, 3 * chunk.count);
-      rz_of[c] = r.dot(z_.segment(3 * chunk.first, 3 * chunk.count));
-      rr_of[c] = r.squaredNorm();
-    });
-  };
-  const auto sum = [](const std::vector<double>& parts) {
-    double total = 0;
-    for (double part : parts) total += part;
-    return total;
-  };
-  const auto within = [&] {
-    std::fill(rr.begin(), rr.end(), 0.0);
-    for (size_t c = 0; c < chunks.size(); ++c) rr[chunks[c].body] += rr_of[c];
-    for (size_t body = 0; body < targets.residual.size(); ++body)
-      if (!(rr[body] <= targets.residual[body] * targets.residual[body])) return false;
-    return true;
-  };
-
-  if (blocks)
-    for_chunks(chunks, n, precondition);
-  else
-    precondition_all();
-  p_ = z_;
-  double rz = sum(rz_of);
-  const long limit = max_iterations_ > 0 ? max_iterations_ : std::max(1000L, 10L * b.size());
-  while (!within()) {
-    if (report.iterations >= limit) {
-      report.reason = "conjugate gradients did not converge in " + std::to_string(limit) + " iterations";
+    if (end == End::kTooSlow) {
+      report.reason = "conjugate gradients did not converge in " + std::to_string(report.iterations) + " iterations";
       return report;
     }
-    ++report.iterations;
-    for_chunks(chunks, n, [&](size_t c, const Chunk& chunk) {
-      A_->multiply_rows(chunk.first, chunk.count, p_, Ap_);
-      pAp_of[c] = p_.segment(3 * chunk.first, 3 * chunk.count).dot(Ap_.segment(3 * chunk.first, 3 * chunk.count));
-    });
-    const double pAp = sum(pAp_of);
-    if (!(pAp > 0) || !(rz > 0)) {
+    if (end == End::kIndefinite && !single) {
       refuse(report, kNotPositiveDefinite, *A_, b);
       return report;
     }
-    const double alpha = rz / pAp;
-    for_chunks(chunks, n, [&](size_t c, const Chunk& chunk) {
-      const int first = 3 * chunk.first, count = 3 * chunk.count;
-      x.segment(first, count) += alpha * p_.segment(first, count);
-      r_.segment(first, count) -= alpha * Ap_.segment(first, count);
-      if (blocks) precondition(c, chunk);
-    });
-    if (!blocks) precondition_all();
-    const double next = sum(rz_of);
-    const double beta = next / rz;
-    rz = next;
-    for_chunks(chunks, n, [&](size_t, const Chunk& chunk) {
-      const int first = 3 * chunk.first, count = 3 * chunk.count;
-      p_.segment(first, count) = z_.segment(first, count) + beta * p_.segment(first, count);
-    });
+    if (!single) {
+      x += double_.dx;
+      break;
+    }
+    // What rounding has left is solved for once more, as long as that pays.
+    if (end == End::kDone) x += float_.dx.cast<double>();
+    residual_of(*A_, b, x, r_);
+    measure();
+    done = within(targets);
+    const double now = norm(r_);
+    single = end == End::kDone && now < kRefinementPays * last;
+    last = now;
   }
   report.ok = true;
   correct_rigid_modes(*A_, b, targets, x);
   return report;
 }
 
+/// w.dx := the correction for w.r, until the recursion's residual is within the targets.
+template <class Scalar>
+ConjugateGradientSolver::End ConjugateGradientSolver::iterate(const LinearTargets& targets, Vectors<Scalar>& w,
+                                                              LinearReport& report) {
+  using Block = Eigen::Matrix<Scalar, 3, 3>;
+  constexpr bool kSingle = std::is_same_v<Scalar, float>;
+  const int n = A_->rows();
+  const Scalar* blocks;
+  if constexpr (kSingle)
+    blocks = w.blocks.data();
+  else
+    blocks = preconditioner_->diagonal_blocks();
+  w.dx.setZero(w.r.size());
+  w.z.resize(w.r.size());
+  w.Ap.resize(w.r.size());
+  // z = P^-1 r (by blocks), r . z and r . r of a chunk
+  const auto precondition = [&](size_t c, const Chunk& chunk) {
+    double rz = 0, squared = 0;
+    for (int i = chunk.first; i < chunk.first + chunk.count; ++i) {
+      const Eigen::Map<const Block> inverse(blocks + 9 * static_cast<size_t>(i));
+      const Eigen::Matrix<Scalar, 3, 1> r = w.r.template segment<3>(3 * i);
+      const Eigen::Matrix<Scalar, 3, 1> z = inverse * r;
+      w.z.template segment<3>(3 * i) = z;
+      rz += static_cast<double>(r.dot(z));
+      squared += static_cast<double>(r.squaredNorm());
+    }
+    rz_[c] = rz;
+    rr_[c] = squared;
+  };
+  // The same for a preconditioner that is more than blocks: a pass of its own.
+  const auto precondition_all = [&] {
+    if constexpr (!kSingle) {
+      preconditioner_->apply(w.r, w.z);
+      for_chunks(chunks_, n, [&](size_t c, const Chunk& chunk) {
+        const auto r = w.r.segment(3 * chunk.first, 3 * chunk.count);
+        rz_[c] = r.dot(w.z.segment(3 * chunk.first, 3 * chunk.count));
+        rr_[c] = r.squaredNorm();
+      });
+    }
+  };
+  const auto sum = [](const std::vector<double>& parts) {
+    double total = 0;
+    for (double part : parts) total += part;
+    return total;
+  };
+
+  if (blocks)
+    for_chunks(chunks_, n, precondition);
+  else
+    precondition_all();
+  w.p = w.z;
+  double rz = sum(rz_);
+  const long limit = max_iterations_ > 0 ? max_iterations_ : std::max(1000L, 10L * w.r.size());
+  while (!within(targets)) {
+    if (report.iterations >= limit) return End::kTooSlow;
+    ++report.iterations;
+    for_chunks(chunks_, n, [&](size_t c, const Chunk& chunk) {
+      if constexpr (kSingle)
+        single_.multiply_rows(chunk.first, chunk.count, w.p, w.Ap);
+      else
+        A_->multiply_rows(chunk.first, chunk.count, w.p, w.Ap);
+      const auto p = w.p.segment(3 * chunk.first, 3 * chunk.count);
+      pAp_[c] = p.template cast<double>().dot(w.Ap.segment(3 * chunk.first, 3 * chunk.count).template cast<double>());
+    });
+    const double pAp = sum(pAp_);
+    if (!(pAp > 0) || !(rz > 0)) return End::kIndefinite;
+    const auto alpha = static_cast<Scalar>(rz / pAp);
+    for_chunks(chunks_, n, [&](size_t c, const Chunk& chunk) {
+      const int first = 3 * chunk.first, count = 3 * chunk.count;
+      w.dx.segment(first, count) += alpha * w.p.segment(first, count);
+      w.r.segment(first, count) -= alpha * w.Ap.segment(first, count);
+      if (blocks) precondition(c, chunk);
+    });
+    if (!blocks) precondition_all();
+    const double next = sum(rz_);
+    const auto beta = static_cast<Scalar>(next / rz);
+    rz = next;
+    for_chunks(chunks_, n, [&](size_t, const Chunk& chunk) {
+      const int first = 3 * chunk.first, count = 3 * chunk.count;
+      w.p.segment(first, count) = w.z.segment(first, count) + beta * w.p.segment(first, count);
+    });
+  }
+  return End::kDone;
+}
+
 std::size_t ConjugateGradientSolver::bytes() const {
-  return preconditioner_->bytes() +
-         sizeof(double) * static_cast<size_t>(r_.size() + z_.size() + p_.size() + Ap_.size());
+  return preconditioner_->bytes() + single_.bytes() + double_.bytes() + float_.bytes();
 }
 
 }  // namespace softreel::sim

@@ -178,7 +178,7 @@ TEST_CASE("a singular matrix, and what is not finite, are refused with a reason"
        {std::pair{"matrix", "matrix is not finite"}, {"b", "right-hand side is not finite"}}) {
     System s = real_system(2, 1e5);
     if (std::string(kind) == "matrix")
-      s.A.values[s.A.values.size() / 2] = std::numeric_limits<double>::quiet_NaN();
+      s.A.block(s.A.diagonal[s.A.diagonal.size() / 2])(1, 1) = std::numeric_limits<double>::quiet_NaN();
     else
       s.b(10) = std::numeric_limits<double>::infinity();
     for (const LinearSettings& settings : all_settings()) {
@@ -281,6 +281,47 @@ TEST_CASE("the rigid-mode projection never makes a solution worse in the norm of
     };
     CHECK(error(&s.model.x0) <= error(nullptr) * (1 + 1e-12));
   }
+}
+
+TEST_CASE("conjugate gradients in single precision end within the targets of the matrix in double precision") {
+  for (const double young : {1e5, 1e9}) {
+    const System s = real_system(8, young);  // 1377 vertices
+    ConjugateGradientSolver solver;
+    solver.factorize(s.A);
+    for (const double relative : {1e-1, 1e-4, 1.1e-5, 1e-8}) {  // the last one in double precision from the start
+      CAPTURE(young);
+      CAPTURE(relative);
+      const std::vector<double> wanted{relative * s.b.norm()};
+      LinearTargets targets = s.targets(wanted);
+      targets.positions = nullptr;  // without the projection at the end, which has a residual of its own
+      Eigen::VectorXd x;
+      const LinearReport report = solver.solve(s.b, targets, x);
+      REQUIRE_MESSAGE(report.ok, report.reason);
+      Eigen::VectorXd Ax;
+      s.A.multiply(x, Ax);
+      CHECK((s.b - Ax).norm() <= wanted[0] * (1 + 1e-6));
+    }
+  }
+}
+
+TEST_CASE("a direct solve that follows iterations which cost too much is not for ever") {
+  // A long bar: cheap to factorize, and far for iterations to go if it is stiff; near if it is soft.
+  System stiff = real_system({60, 3, 3}, 1e9), soft = real_system({60, 3, 3}, 1e4);
+  REQUIRE(stiff.A.column == soft.A.column);
+  const std::unique_ptr<LinearSolver> solver = make_linear_solver("auto");
+  solver->analyse(stiff.A);
+  const auto solve = [&](System& s, double relative) {
+    const std::vector<double> wanted{relative * s.b.norm()};
+    Eigen::VectorXd x;
+    solver->factorize(s.A);
+    const LinearReport report = solver->solve(s.b, s.targets(wanted), x);
+    REQUIRE(report.ok);
+    return std::string(report.chosen);
+  };
+  for (int i = 0; i < 3; ++i) CHECK(solve(stiff, 1e-10) == "cholesky");
+  int until_cg = 0;
+  while (solve(soft, 1e-2) != "cg") REQUIRE(++until_cg < 10);
+  CHECK(solve(soft, 1e-2) == "cg");
 }
 
 TEST_CASE("the choice of auto is restored with its memory") {
