@@ -6,16 +6,17 @@
 namespace softreel::sim {
 namespace {
 
-// Work in units of one nanosecond on the machine they were measured on (two cores of 2.6 GHz): only their ratio counts.
+// Work in units of one nanosecond on the machine they were measured on (two cores of 2.4 GHz): only their ratio counts.
 constexpr double kPerFlop = 0.027;        // supernodal factorization, one thread
-constexpr double kPerFactorNonzero = 10;  // its memory traffic, the copy of the values, the triangular solves
-constexpr double kPerBlock = 1.0;         // product with one 3x3 block
-constexpr double kPerRow = 8;             // vector work of an iteration, per block row
+constexpr double kPerFactorNonzero = 16;  // its memory traffic, the copy of the values, the triangular solves
+constexpr double kPerBlock = 1.2;         // product with one 3x3 block in single precision
+constexpr double kPerRow = 10;            // vector work of an iteration, per block row
 
 // Below this size a direct solve costs less than finding out.
 constexpr int kSmall = 600;
-// The choice is put to the test again after so many solves.
-constexpr long kReconsider = 64;
+// The first time that iterations cost too much, so many solves are direct before they are tried again; every further
+// time in a row twice as many and these, up to the longest.
+constexpr long kFirstPause = 2, kLongestPause = 64;
 
 }  // namespace
 
@@ -39,7 +40,7 @@ void AutoSolver::factorize(const BlockMatrix& A) { A_ = &A; }
 LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
   ++since_choice_;
   const bool small = A_->rows() <= kSmall;
-  const bool test = !small && direct_ && since_choice_ > kReconsider;
+  const bool test = !small && direct_ && since_choice_ > pause_;
   long spent = 0;
   if (!direct_ || test) {
     // Iterations up to what the factorization would cost; its cost is counted once the iterations look expensive.
@@ -57,12 +58,14 @@ LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& ta
     if (test) since_choice_ = 0;
     if (report.ok) {
       direct_ = false;
+      pause_ = 0;
       report.iterations += spent;
       return report;
     }
     spent += report.iterations;
     direct_ = true;
     since_choice_ = 0;
+    pause_ = std::min(2 * pause_ + kFirstPause, kLongestPause);
   }
   if (!cholesky_.analysed()) cholesky_.analyse(*A_);
   cholesky_.factorize(*A_);
@@ -74,14 +77,16 @@ LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& ta
 std::size_t AutoSolver::bytes() const { return cg_.bytes() + (cholesky_.analysed() ? cholesky_.bytes() : 0); }
 
 std::vector<double> AutoSolver::memory() const {
-  return {direct_ ? 1.0 : 0.0, static_cast<double>(since_choice_), cholesky_.analysed() ? 1.0 : 0.0};
+  return {direct_ ? 1.0 : 0.0, static_cast<double>(since_choice_), static_cast<double>(pause_),
+          cholesky_.analysed() ? 1.0 : 0.0};
 }
 
 void AutoSolver::restore(std::span<const double> saved) {
-  if (saved.size() != 3) throw std::invalid_argument("memory of another linear solver");
+  if (saved.size() != 4) throw std::invalid_argument("memory of another linear solver");
   direct_ = saved[0] != 0;
   since_choice_ = static_cast<long>(saved[1]);
-  if (saved[2] != 0 && !cholesky_.analysed()) cholesky_.analyse(*A_);
+  pause_ = static_cast<long>(saved[2]);
+  if (saved[3] != 0 && !cholesky_.analysed()) cholesky_.analyse(*A_);
 }
 
 }  // namespace softreel::sim

@@ -24,6 +24,7 @@ class AutoSolver final : public LinearSolver {
   ConjugateGradientSolver cg_;
   bool direct_ = true;     // the current choice
   long since_choice_ = 0;  // solves since it was last put to the test
+  long pause_ = 0;         // direct ones from there to the next test
 };
 
 }  // namespace softreel::sim

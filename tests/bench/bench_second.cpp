@@ -1,11 +1,12 @@
 // One second of simulation, 60 steps, set-up of the first run included: clamped half-metre cubes and a cloth that hangs
 // from two corners. Prints medians over the runs, per stage; judges nothing.
 //
-//   build/release/tests/bench_second [RUNS]
+//   build/release/tests/bench_second [RUNS [PART OF A NAME [LINEAR SOLVER]]]
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <vector>
 
@@ -18,6 +19,8 @@ using namespace softreel::sim;
 namespace {
 
 constexpr int kSteps = 60;
+const char* only = "";          // runs whose name has this in it
+const char* instead = nullptr;  // of the linear solver that a run has
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -45,6 +48,8 @@ Model cloth(int cells) {
 
 /// The lowest point at the end [m].
 double run(const char* what, const std::function<Model()>& make, const char* linear, double tolerance, int runs) {
+  if (!std::strstr(what, only)) return 0;
+  if (instead) linear = instead;
   double lowest = 0;
   std::vector<double> seconds;
   StepReport total;
@@ -80,6 +85,8 @@ double run(const char* what, const std::function<Model()>& make, const char* lin
 
 int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::max(1, std::atoi(argv[1])) : 3;
+  if (argc > 2) only = argv[2];
+  if (argc > 3) instead = argv[3];
   std::printf("one second in %d steps, tolerance 1e-3, median of %d runs [s]; stages of the last run\n", kSteps, runs);
   std::printf("%-36s %-9s %7s  %5s %5s %5s %5s %5s  %5s %8s  %8s  %s\n", "", "linear", "in all", "build", "grad",
               "assem", "solve", "other", "newt.", "lin.it.", "lowest", "chosen");
