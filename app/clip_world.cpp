@@ -1,0 +1,56 @@
+#include "app/clip_world.h"
+
+#include <fmt/format.h>
+
+#include "app/field_world.h"
+#include "app/world.h"
+
+namespace softreel::app {
+
+ClipWorld::ClipWorld(const assets::Scene& scene, const Shapes& shapes)
+    : scene_(scene), fields_(build_fields(scene, shapes)) {
+  if (!scene.soft.empty() || !scene.cloth.empty() || !scene.springs.empty())
+    bodies_ = std::make_unique<sim::Simulation>(build_model(scene, shapes), simulation_settings(scene));
+}
+
+std::optional<StepFailure> ClipWorld::step(double h, sim::StepReport& sum) {
+  t_ += h;
+  if (bodies_) {
+    sum.add(bodies_->step(h));
+    if (!sum.converged) return StepFailure{sum.reason, bodies_->implicit()};
+  }
+  for (size_t i = 0; i < fields_.size(); ++i) {
+    sim::StepReport report = fields_[i].step(h);
+    if (!report.converged) return StepFailure{fmt::format("field '{}': {}", scene_.fields[i].name, report.reason)};
+    if (bodies_) report.steps = 0;  // steps of the scene are counted once
+    if (i > 0) report.steps = 0;
+    sum.add(report);
+  }
+  return std::nullopt;
+}
+
+CachedFrame ClipWorld::frame(const sim::StepReport& sum) const {
+  CachedFrame frame;
+  if (bodies_) {
+    frame.state = bodies_->state();
+    frame.memory = bodies_->memory();
+    frame.figures.energies = bodies_->energies();
+  } else {
+    frame.state.t = t_;
+  }
+  frame.figures.steps = static_cast<double>(sum.steps);
+  frame.figures.newton_iterations = static_cast<double>(sum.newton_iterations);
+  frame.figures.linear_iterations = static_cast<double>(sum.linear_iterations);
+  frame.figures.retried_steps = static_cast<double>(sum.retries);
+  for (const sim::Field& field : fields_) frame.fields.push_back({field.value(), field.rate(), field.memory()});
+  return frame;
+}
+
+void ClipWorld::restore(const CachedFrame& frame) {
+  t_ = frame.state.t;
+  if (bodies_) bodies_->restore(frame.state, frame.memory);
+  for (size_t i = 0; i < fields_.size(); ++i)
+    fields_[i].restore(t_, frame.fields[i].value, frame.fields[i].rate, frame.fields[i].memory);
+}
+
+}  // namespace softreel::app
