@@ -131,6 +131,44 @@ void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFra
       extent.add(moved(shape_of(c, extent), make_collider(c).pose(state.t)));
 }
 
+render::Camera camera_of(const assets::Scene& scene, const ClipExtent& extent,
+                         const std::vector<render::ColorBar>& color_bars) {
+  render::Camera camera;
+  const assets::Camera& c = scene.camera;
+  const float whole_aspect = static_cast<float>(scene.render.size[0]) / static_cast<float>(scene.render.size[1]);
+  // Colour bars take a part of the right side; what is left of it frames the scene.
+  const float bars = std::min(
+      0.5f, static_cast<float>(render::color_bars_width(scene.render.size[0], scene.render.size[1], color_bars)) /
+                static_cast<float>(scene.render.size[0]));
+  const float aspect = whole_aspect * (1 - bars);
+  const float fov = static_cast<float>(c.fov);
+  camera.fov = fov;
+  camera.up = to_vec(c.up);
+  if (c.position) {
+    camera.position = to_vec(*c.position);
+    camera.target = c.target ? to_vec(*c.target) : extent.bounds.centre();
+    return camera;
+  }
+  const render::Camera framed = render::frame_points(extent.points, fov, aspect, glm::normalize(to_vec(c.direction)));
+  if (!c.target) {
+    camera = framed;
+  } else {
+    // Look at the target from as far as the framing asks for.
+    camera.target = to_vec(*c.target);
+    camera.position =
+        camera.target + glm::length(framed.position - framed.target) * glm::normalize(to_vec(c.direction));
+  }
+  camera.up = to_vec(c.up);
+  if (bars > 0 && !c.target) {  // half of that to the side brings the scene into the middle of the rest
+    const glm::vec3 ahead = camera.target - camera.position;
+    const glm::vec3 right = glm::normalize(glm::cross(ahead, camera.up));
+    const glm::vec3 aside = right * (bars * whole_aspect * glm::length(ahead) * std::tan(glm::radians(fov) / 2));
+    camera.position += aside;
+    camera.target += aside;
+  }
+  return camera;
+}
+
 Stage::Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent)
     : scene_(scene),
       renderer_({scene.render.size[0], scene.render.size[1], scene.render.samples,
@@ -138,7 +176,7 @@ Stage::Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent&
   add_bodies(shapes);
   add_fields(shapes, extent);
   add_colliders(extent);
-  place_camera(extent);
+  camera_ = camera_of(scene_, extent, bars_);
   place_lights(extent);
   place_ground(extent);
 }
@@ -181,41 +219,6 @@ void Stage::add_colliders(const ClipExtent& extent) {
     renderer_.set_transform(d.mesh, to_glm(d.collider.pose(0)));
     if (plane) renderer_.set_casts_shadow(d.mesh, false);
     colliders_.push_back(std::move(d));
-  }
-}
-
-void Stage::place_camera(const ClipExtent& extent) {
-  const assets::Camera& c = scene_.camera;
-  const float whole_aspect = static_cast<float>(scene_.render.size[0]) / static_cast<float>(scene_.render.size[1]);
-  // Colour bars take a part of the right side; what is left of it frames the scene.
-  const float bars =
-      std::min(0.5f, static_cast<float>(render::color_bars_width(scene_.render.size[0], scene_.render.size[1], bars_)) /
-                         static_cast<float>(scene_.render.size[0]));
-  const float aspect = whole_aspect * (1 - bars);
-  const float fov = static_cast<float>(c.fov);
-  camera_.fov = fov;
-  camera_.up = to_vec(c.up);
-  if (c.position) {
-    camera_.position = to_vec(*c.position);
-    camera_.target = c.target ? to_vec(*c.target) : extent.bounds.centre();
-    return;
-  }
-  const render::Camera framed = render::frame_points(extent.points, fov, aspect, glm::normalize(to_vec(c.direction)));
-  if (!c.target) {
-    camera_ = framed;
-  } else {
-    // Look at the target from as far as the framing asks for.
-    camera_.target = to_vec(*c.target);
-    camera_.position =
-        camera_.target + glm::length(framed.position - framed.target) * glm::normalize(to_vec(c.direction));
-  }
-  camera_.up = to_vec(c.up);
-  if (bars > 0 && !c.target) {  // half of that to the side brings the scene into the middle of the rest
-    const glm::vec3 ahead = camera_.target - camera_.position;
-    const glm::vec3 right = glm::normalize(glm::cross(ahead, camera_.up));
-    const glm::vec3 aside = right * (bars * whole_aspect * glm::length(ahead) * std::tan(glm::radians(fov) / 2));
-    camera_.position += aside;
-    camera_.target += aside;
   }
 }
 

@@ -30,6 +30,11 @@ struct ClipExtent {
 /// The visible bodies, fields and colliders of one frame.
 void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& frame, ClipExtent& extent);
 
+/// The scene's camera; `extent` frames the clip where the scene leaves it open. `color_bars` take a part of the
+/// picture.
+render::Camera camera_of(const assets::Scene& scene, const ClipExtent& extent,
+                         const std::vector<render::ColorBar>& color_bars = {});
+
 class Stage {
  public:
   /// Builds meshes and looks; camera, ground and lights from `extent` where the scene leaves them open. `scene` and
@@ -43,7 +48,6 @@ class Stage {
   void add_bodies(const Shapes& shapes);
   void add_fields(const Shapes& shapes, const ClipExtent& extent);
   void add_colliders(const ClipExtent& extent);
-  void place_camera(const ClipExtent& extent);
   void place_lights(const ClipExtent& extent);
   void place_ground(const ClipExtent& extent);
 

@@ -47,9 +47,8 @@ CachedFrame frame_of(const ClipWorld& world, const sim::StepReport& sum) {
 }
 
 bool finite(const CachedFrame& frame) {
-  return frame.state.x.allFinite() && std::all_of(frame.fields.begin(), frame.fields.end(), [](const CachedField& f) {
-           return f.value.allFinite();
-         });
+  return frame.state.x.allFinite() && std::all_of(frame.fields.begin(), frame.fields.end(),
+                                                  [](const CachedField& f) { return f.value.allFinite(); });
 }
 
 /// Steps from frame to frame; returns why it ended early.
@@ -64,8 +63,7 @@ std::optional<TrialFailure> run_frames(const assets::Scene& scene, ClipWorld& wo
       stop_if_interrupted();
       const double t = static_cast<double>(step) * h;
       if (since(start) > options.seconds)
-        return TrialFailure{TrialEnd::kBudget, frame, t, step,
-                            fmt::format("not done after {:.3g} s", options.seconds)};
+        return TrialFailure{TrialEnd::kBudget, frame, t, step, fmt::format("not done after {:.3g} s", options.seconds)};
       ++step;
       const Clock::time_point wall = Clock::now();
       const double processor = processor_seconds();
@@ -89,11 +87,11 @@ std::optional<TrialFailure> run_frames(const assets::Scene& scene, ClipWorld& wo
 }
 
 // Keys that change no mesh: whole sections, and what bodies have beside their shape.
-constexpr std::array<std::string_view, 8> kSections = {"gravity", "time.", "solver.", "load.",
+constexpr std::array<std::string_view, 8> kSections = {"gravity", "time.", "solver.",  "load.",
                                                        "attach.", "wind.", "contact.", "damping."};
-constexpr std::array<std::string_view, 11> kBodyKeys = {
-    ".material.", ".density ",  ".velocity ",  ".spin ", ".pins.",
-    ".source ",   ".initial",  ".springs.", ".stiffness ", ".diffusivity ", ".speed "};
+constexpr std::array<std::string_view, 11> kBodyKeys = {".material.",  ".density ",     ".velocity ", ".spin ",
+                                                        ".pins.",      ".source ",      ".initial",   ".springs.",
+                                                        ".stiffness ", ".diffusivity ", ".speed "};
 
 bool changes_no_mesh(std::string_view line) {
   return std::any_of(kSections.begin(), kSections.end(), [&](std::string_view s) { return line.starts_with(s); }) ||

@@ -301,6 +301,13 @@ struct Damping {
   double beta = 0;   ///< Rayleigh, of the stiffness [s]
 };
 
+/// The motion of one body as it should be, in closed form: what `softreel study` measures errors against.
+struct Reference {
+  BodyName body;
+  /// Displacement of a vertex from its rest position x, y, z [m] at the time t [s], as formulas (formula.h) [m].
+  std::string x = "0", y = "0", z = "0";
+};
+
 struct Camera {
   std::optional<Vec3> position;          ///< [m]; absent: framed over the whole clip, seen from `direction`
   std::optional<Vec3> target;            ///< [m]; absent: the middle of what is to be seen
@@ -368,6 +375,7 @@ struct Scene {
   std::optional<Wind> wind;
   Contact contact;
   Damping damping;
+  std::optional<Reference> reference;
   Camera camera;
   std::vector<Light> lights;  ///< a file that does not mention lights gets one area light; `light = []` means none
   Render render;

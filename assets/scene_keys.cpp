@@ -121,6 +121,8 @@ void walk_scene(KeyVisitor& v, Scene& s) {
   v.section({"wind", "moving air; presses on cloths and soft bodies"}, keys_of(s.wind));
   v.section({"contact", "between bodies and colliders"}, keys_of(s.contact));
   v.section({"damping", "of all bodies"}, keys_of(s.damping));
+  v.section({"reference", "the motion in closed form, against which softreel study measures errors"},
+            keys_of(s.reference));
   v.section({"camera", "where the clip is seen from"}, keys_of(s.camera));
   v.list({"light", "left out, there is one area light; light = [] means none"}, keys_of(s.lights));
   v.section({"render", "size and quality of the pictures"}, keys_of(s.render));

@@ -22,6 +22,14 @@ void walk(KeyVisitor& v, Load& l) {
   if (v.reading()) check(v, l);
 }
 
+void walk(KeyVisitor& v, Reference& r) {
+  v.key({"body", kNeither, "", {}, "whose motion is known"}, &r.body);
+  v.key({"x", kNeither, "m", {}, "displacement along x; x, y, z in it are the position at rest"}, FormulaRef{&r.x});
+  v.key({"y", kNeither, "m", {}, "displacement along y"}, FormulaRef{&r.y});
+  v.key({"z", kNeither, "m", {}, "displacement along z"}, FormulaRef{&r.z});
+  if (v.reading()) check(v, r);
+}
+
 void walk(KeyVisitor& v, Attach& a) {
   v.key({"name", kNeither, "", {}, "by which it is called; left out, attach-1, attach-2, ..."}, NameRef{&a.name});
   v.key({"bodies", kPhysics, "", {}, "vertices of the first are bound to the surface of the second"}, &a.bodies);

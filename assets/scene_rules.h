@@ -21,6 +21,7 @@ void check(KeyVisitor& v, const FixedValue& fixed);
 void check(KeyVisitor& v, const Field& field);
 void check(KeyVisitor& v, Collider& collider);
 void check(KeyVisitor& v, const Load& load);
+void check(KeyVisitor& v, const Reference& reference);
 void check(KeyVisitor& v, const Attach& attach);
 void check(KeyVisitor& v, const Camera& camera);
 void check(KeyVisitor& v, const Light& light);

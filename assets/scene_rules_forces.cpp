@@ -90,6 +90,10 @@ void check(KeyVisitor& v, const Attach& attach) {
     v.problem("bodies", "a body cannot be tied to itself");
 }
 
+void check(KeyVisitor& v, const Reference& reference) {
+  if (reference.body.name.empty()) v.problem("", "names no body whose motion is known; add body = \"NAME\"");
+}
+
 void check_references(KeyVisitor& v, Scene& scene) {
   std::map<std::string, std::string> places;
   std::vector<std::string> names;
@@ -125,6 +129,7 @@ void check_references(KeyVisitor& v, Scene& scene) {
   for (size_t i = 0; i < scene.attachments.size(); ++i)
     for (size_t k = 0; k < 2; ++k)
       find(scene.attachments[i].bodies[k], fmt::format("attach.{}.bodies.{}", i + 1, k + 1));
+  if (scene.reference) find(scene.reference->body, "reference.body");
 }
 
 }  // namespace softreel::assets

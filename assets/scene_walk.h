@@ -28,6 +28,7 @@ void walk(KeyVisitor& v, Gusts& gusts);
 void walk(KeyVisitor& v, Wind& wind);
 void walk(KeyVisitor& v, Contact& contact);
 void walk(KeyVisitor& v, Damping& damping);
+void walk(KeyVisitor& v, Reference& reference);
 void walk(KeyVisitor& v, Camera& camera);
 void walk(KeyVisitor& v, Light& light);
 void walk(KeyVisitor& v, Background& background);

@@ -40,8 +40,7 @@ TEST_CASE("a trial gives the frames of the clip to the bit, and leaves no file")
 
 TEST_CASE("a trial that cannot hold tells frame, time, step and reason instead of throwing") {
   app::SharedShapes shapes("");
-  const assets::Scene wild =
-      variant({"time.integrator=symplectic-euler", "cloth.sheet.springs.structural=1e9"});
+  const assets::Scene wild = variant({"time.integrator=symplectic-euler", "cloth.sheet.springs.structural=1e9"});
   const app::Trial failed = app::run_trial(wild, shapes.of(wild));
   REQUIRE(failed.failure);
   CHECK(failed.failure->end == app::TrialEnd::kFailed);
@@ -83,7 +82,7 @@ TEST_CASE("variants share their shapes unless a key changes a mesh") {
   for (const char* same : {"time.substeps=9", "solver.tolerance=1e-6", "cloth.sheet.springs.structural=7",
                            "cloth.sheet.density=300", "gravity=[0, -1, 0]", "damping.drag=1"})
     CHECK(&shapes.of(variant({same})) == &plain);
-  for (const char* other : {"cloth.sheet.grid.cells=[3, 3]", "cloth.sheet.translate=[0, 1, 0]",
-                            "cloth.sheet.grid.size=[2, 1]"})
+  for (const char* other :
+       {"cloth.sheet.grid.cells=[3, 3]", "cloth.sheet.translate=[0, 1, 0]", "cloth.sheet.grid.size=[2, 1]"})
     CHECK(&shapes.of(variant({other})) != &plain);
 }

@@ -83,6 +83,26 @@ TEST_CASE("a scene that says nothing of them has none, air may be still") {
   CHECK_FALSE(still.wind->gusts);
 }
 
+TEST_CASE("a reference names a body of the scene and gives its displacement in formulas") {
+  const Scene s = parse(kBlock + "[reference]\nbody = \"block\"\ny = \"x*sin(2*t)\"\nz = 0.5\n");
+  REQUIRE(s.reference);
+  CHECK(s.reference->body.place == "soft.1");
+  CHECK(s.reference->x == "0");
+  CHECK(s.reference->y == "x*sin(2*t)");
+  CHECK_FALSE(parse(kBlock).reference);
+  for (const auto& [text, says] : {std::pair{"[reference]\ny = 1\n", "names no body"},
+                                   std::pair{"[reference]\nbody = \"none\"\n", "there is no body \"none\""},
+                                   std::pair{"[reference]\nbody = \"block\"\ny = \"sin(\"\n", "formula"}}) {
+    CAPTURE(text);
+    try {
+      parse(kBlock + text);
+      FAIL_CHECK("it was read");
+    } catch (const UserError& e) {
+      CHECK(std::string(e.what()).find(says) != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("overrides reach loads by name, and wind that the file does not mention") {
   const std::vector<std::string> overrides = {"load.push.force=[0, 5, 0]", "wind.velocity=[1, 2, 3]"};
   const Scene s = parse(kBlock + kLoad + "name = 'push'\nforce = [1, 0, 0]\n", overrides);
