@@ -53,11 +53,26 @@ struct TetrahedralizeArguments : CommonArguments {
   std::string up = "y";
 };
 
+struct StudyArguments : CommonArguments {
+  std::string scene;
+  std::string output;  ///< folder; empty: out/NAME-study
+  std::vector<std::string> overrides;
+  std::vector<std::string> integrators, substeps, tolerances, linear, resolutions;  ///< to sweep; empty: the defaults
+  std::vector<std::string> sweeps;                                                  ///< key=v1,v2
+  std::string budget = "2m";
+  int repeats = 3;
+  std::string apply;     ///< target, such as 1%; empty: no copy of the scene
+  std::string apply_to;  ///< file; empty: NAME-studied.toml beside the scene
+  bool overwrite = false;
+  std::string command;  ///< as it was typed
+};
+
 // Each returns an exit code, or throws UserError, RenderError, Interrupted.
 int run_render(const ClipArguments& arguments);
 int run_simulate(const ClipArguments& arguments);
 int run_turntable(const TurntableArguments& arguments);
 int run_compare(const CompareArguments& arguments);
+int run_study(const StudyArguments& arguments);
 int run_check(const CheckArguments& arguments);
 int run_tetrahedralize(const TetrahedralizeArguments& arguments);
 

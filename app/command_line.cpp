@@ -18,6 +18,7 @@ constexpr const char* kExamples = R"(Examples:
   softreel simulate hello.toml --export vtu
   softreel turntable spot.obj --count 36 --video spin.mp4
   softreel compare reference/ out/hello/
+  softreel study hello.toml --budget 5m --apply 1px
   softreel check hello.toml
   softreel tetrahedralize spot.obj -o spot.msh
 
@@ -38,6 +39,36 @@ void add_clip(CLI::App& command, ClipArguments& a) {
       ->take_all()
       ->allow_extra_args(false);
   command.add_option("--stats", a.stats, "write counts, seconds and energies to this JSON file");
+  add_common(command, a);
+}
+
+void add_study(CLI::App& command, StudyArguments& a) {
+  command.add_option("scene", a.scene, "scene file (TOML)")->required();
+  command.add_option("-o,--output", a.output, "folder for report and cache (default: out/NAME-study)");
+  const auto list = [&](const char* name, std::vector<std::string>& values, const char* help) {
+    command.add_option(name, values, help)->delimiter(',')->allow_extra_args(false)->type_name("A,B,...");
+  };
+  list("--integrators", a.integrators, "time.integrator to compare (default: what suits the scene; so below)");
+  list("--substeps", a.substeps, "time.substeps: 1,2,4,8");
+  list("--tolerances", a.tolerances, "solver.tolerance: 1e-2,1e-4");
+  list("--linear", a.linear, "solver.linear: cg,cholesky (default: the scene's)");
+  list("--resolutions", a.resolutions, "factors on the cells of grids, blocks and chains: 0.5,1,2 (default: 1)");
+  command.add_option("--sweep", a.sweeps, "any other key of how it is computed: solver.omega=1,1.5")
+      ->type_name("KEY=A,B,...")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--set", a.overrides, "override a key of the scene for all runs")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--budget", a.budget, "time for all of it: 60s, 5m; cheap runs come first")->capture_default_str();
+  command.add_option("--repeats", a.repeats, "runs whose median time counts; long runs are not repeated")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  CLI::Option* apply = command.add_option(
+      "--apply", a.apply, "write a copy of the scene with the fastest settings within this error: 1%, 1px, 1mm");
+  command.add_option("--apply-to", a.apply_to, "file of that copy (default: NAME-studied.toml)")->needs(apply);
+  command.add_flag("--overwrite", a.overwrite, "let --apply-to be the scene itself")->needs(apply);
   add_common(command, a);
 }
 
@@ -98,6 +129,12 @@ int run_command_line(int argc, char** argv) {
   command->add_option("--video", turntable.video, "also write a video (.mp4, .mov, .mkv) through ffmpeg");
   add_common(*command, turntable);
   command->callback([&] { run = [&] { return run_turntable(turntable); }; });
+
+  StudyArguments study;
+  for (int i = 0; i < argc; ++i) study.command += (i ? " " : "") + std::string(argv[i]);
+  add_study(*app.add_subcommand("study", "error against run time over a sweep of settings: table, plots, report"),
+            study);
+  app.get_subcommand("study")->callback([&] { run = [&] { return run_study(study); }; });
 
   CompareArguments compare;
   command = app.add_subcommand("compare", "two pictures, or two folders of frames; exit code 1 if they differ");

@@ -26,8 +26,9 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string what, int total, bool quiet)
+Progress::Progress(std::string what, int total, bool quiet, std::string unit)
     : what_(std::move(what)),
+      unit_(std::move(unit)),
       total_(total),
       quiet_(quiet || total <= 0),
       terminal_(isatty(STDERR_FILENO) != 0),
@@ -38,8 +39,8 @@ Progress::~Progress() {
   if (!quiet_ && terminal_ && done_ > 0) std::fputc('\n', stderr);
 }
 
-void Progress::advance(int frames) {
-  done_ += frames;
+void Progress::advance(int units) {
+  done_ += units;
   if (quiet_) return;
   const Clock::time_point now = Clock::now();
   const double since = std::chrono::duration<double>(now - last_drawn_).count();
@@ -51,7 +52,7 @@ void Progress::advance(int frames) {
 void Progress::draw(double seconds) const {
   const double rate = seconds > 0 ? done_ / seconds : 0;
   const std::string left = rate > 0 ? clock_text((total_ - done_) / rate) : "?";
-  const std::string figures = fmt::format("{}/{}  {:.1f} frames/s  {} left", done_, total_, rate, left);
+  const std::string figures = fmt::format("{}/{}  {:.1f} {}/s  {} left", done_, total_, rate, unit_, left);
   if (terminal_) {
     constexpr int kWidth = 28;
     const int full = std::clamp(kWidth * done_ / total_, 0, kWidth);

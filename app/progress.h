@@ -7,20 +7,20 @@ namespace softreel::app {
 
 class Progress {
  public:
-  /// `what`: "simulate", "render"; `total`: frames to come.
-  Progress(std::string what, int total, bool quiet);
+  /// `what`: "simulate", "render"; `total`: `unit`s to come.
+  Progress(std::string what, int total, bool quiet, std::string unit = "frames");
   /// Ends the line of the bar.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void advance(int frames = 1);
+  void advance(int units = 1);
 
  private:
   void draw(double seconds) const;
 
   using Clock = std::chrono::steady_clock;
-  std::string what_;
+  std::string what_, unit_;
   int total_, done_ = 0;
   bool quiet_, terminal_;
   Clock::time_point start_, last_drawn_;

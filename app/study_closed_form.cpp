@@ -28,9 +28,10 @@ void evaluate_closed_form(const StudyPoints& points, const Shapes& shapes, Study
         refuse(fmt::format("no finite displacement at ({:.4g}, {:.4g}, {:.4g}) [m], t = {:.4g} s", rest.x(), rest.y(),
                            rest.z(), t));
       if (f == 0 && u.norm() > 1e-9 * reference.size)
-        refuse(fmt::format("at t = 0 the displacement of vertex {} is ({:.4g}, {:.4g}, {:.4g}) m, and every body starts "
-                           "where it was put; subtract it from the formulas",
-                           i, u.x(), u.y(), u.z()));
+        refuse(
+            fmt::format("at t = 0 the displacement of vertex {} is ({:.4g}, {:.4g}, {:.4g}) m, and every body starts "
+                        "where it was put; subtract it from the formulas",
+                        i, u.x(), u.y(), u.z()));
       where.col(static_cast<Eigen::Index>(i)) = rest + u;
       frame.state.x.segment<3>(3 * (body.first + static_cast<int>(i))) = rest + u;
     }

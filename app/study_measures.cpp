@@ -27,7 +27,8 @@ bool any_body(const assets::Scene& s, const Is& is) {
 /// Work from outside is in no account: scripted motions, loads that change, and equilibria, which have no motion.
 bool keeps_energy(const assets::Scene& s) {
   if (s.time.integrator == "static" || any_body(s, [](const assets::Body& b) { return driven(b.pins); })) return false;
-  if (std::any_of(s.colliders.begin(), s.colliders.end(), [](const auto& c) { return !c.motion.empty(); })) return false;
+  if (std::any_of(s.colliders.begin(), s.colliders.end(), [](const auto& c) { return !c.motion.empty(); }))
+    return false;
   return std::all_of(s.loads.begin(), s.loads.end(),
                      [](const assets::Load& l) { return l.from == 0 && l.ramp == 0 && !l.until; });
 }
@@ -104,9 +105,9 @@ double penetration(const assets::Scene& scene, const Trial& trial) {
     for (const CachedFrame& frame : trial.frames) {
       const Eigen::Isometry3d shape_from_world = collider.pose(frame.state.t).inverse();
       for (Eigen::Index i = 0; i < frame.state.x.size(); i += 3)
-        deepest = std::max(deepest, -sim::signed_distance(collider.shape, shape_from_world *
-                                                                              Vector3d(frame.state.x.segment<3>(i)))
-                                         .distance);
+        deepest = std::max(
+            deepest,
+            -sim::signed_distance(collider.shape, shape_from_world * Vector3d(frame.state.x.segment<3>(i))).distance);
     }
   }
   return deepest;

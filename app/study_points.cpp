@@ -22,8 +22,8 @@ void in_tets(const sim::TetMesh& mesh, const std::vector<Vec3>& points, const Em
   for (const sim::Tet& t : mesh.tets) {
     Eigen::Matrix3d edges;
     for (int k = 0; k < 3; ++k)
-      edges.col(k) = mesh.vertices[static_cast<size_t>(t[static_cast<size_t>(k) + 1])] -
-                     mesh.vertices[static_cast<size_t>(t[0])];
+      edges.col(k) =
+          mesh.vertices[static_cast<size_t>(t[static_cast<size_t>(k) + 1])] - mesh.vertices[static_cast<size_t>(t[0])];
     inverse.push_back(edges.inverse());
   }
   for (const Vec3& p : points) {

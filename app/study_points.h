@@ -14,7 +14,7 @@ namespace softreel::app {
 struct StudyPoints {
   struct Body {
     enum class Kind { kSoft, kCloth, kSprings } kind;
-    size_t index;                ///< in scene.soft, .cloth or .springs
+    size_t index;                 ///< in scene.soft, .cloth or .springs
     std::vector<sim::Vec3> rest;  ///< placed [m]
     int first;                    ///< vertex of the scene's own state
   };

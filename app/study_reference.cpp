@@ -11,6 +11,7 @@
 #include "app/progress.h"
 #include "app/study_closed_form.h"
 #include "app/study_measures.h"
+#include "assets/atomic_file.h"
 #include "assets/content_hash.h"
 #include "assets/error.h"
 #include "assets/scene_reader.h"
@@ -23,11 +24,11 @@ using assets::ErrorKind;
 using assets::UserError;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kVersion = 1;           // raised when references come out different
-constexpr double kEnough = 1e-9;      // error relative to the scene's size
-constexpr double kTrusted = 1e-3;     // above that a second method is tried
-constexpr int kFinest = 64;           // times the substeps of the sweep
-constexpr int kMostRefinements = 6;   // doublings until an explicit method holds
+constexpr int kVersion = 1;          // raised when references come out different
+constexpr double kEnough = 1e-9;     // error relative to the scene's size
+constexpr double kTrusted = 1e-3;    // above that a second method is tried
+constexpr int kFinest = 64;          // times the substeps of the sweep
+constexpr int kMostRefinements = 6;  // doublings until an explicit method holds
 
 struct Method {
   const char* integrator;
@@ -188,6 +189,7 @@ void save(const std::filesystem::path& file, const StudyReference& r, const Ladd
                     {"order", r.order},
                     {"substeps", best.levels.back().substeps},
                     {std::string("method/") + best.method.integrator, 1}};
+  assets::make_folders(file.parent_path());
   assets::write_state(file, r.hash, record);
 }
 
@@ -228,8 +230,8 @@ bool load(const std::filesystem::path& file, double factor, StudyReference& r) {
 
 StudyReference make_reference(const SweepRequest& request, const Sweep& sweep, const StudyPoints& points,
                               SharedShapes& shapes, const std::filesystem::path& folder, double seconds, bool quiet) {
-  const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                   std::chrono::duration<double>(seconds));
+  const Clock::time_point end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   StudyReference r;
   r.hash = hash_of(sweep);
   r.scene = sweep.scene;

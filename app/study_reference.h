@@ -16,9 +16,9 @@ struct StudyReference {
   std::vector<CachedFrame> frames;       ///< states for camera and pictures; of `scene`
   assets::Scene scene;                   ///< whose meshes the frames have
   std::vector<Eigen::Matrix3Xd> points;  ///< where the points belong, each frame [m]
-  double floor = 0;  ///< its own error: largest over the frames of the RMS [m]; 0: rounding alone
-  double order = 0;  ///< at which its last levels converged; 0: not measured
-  double size = 1;   ///< diagonal of the box around the bodies, at the start [m]
+  double floor = 0;                      ///< its own error: largest over the frames of the RMS [m]; 0: rounding alone
+  double order = 0;                      ///< at which its last levels converged; 0: not measured
+  double size = 1;                       ///< diagonal of the box around the bodies, at the start [m]
 };
 
 /// The closed form that the scene declares, or else a run with far more substeps, of rk4 where it holds and of bdf2

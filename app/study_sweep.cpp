@@ -30,8 +30,8 @@ constexpr const char* kSubsteps = "time.substeps";
 constexpr const char* kIntegrator = "time.integrator";
 
 // Ends of keys beside time., solver. and contact. that say how something is computed.
-constexpr std::array<std::string_view, 6> kHow = {".cells", ".links", ".mass", ".max_volume",
- ".bending_model", ".quality"};
+constexpr std::array<std::string_view, 6> kHow = {".cells",      ".links",         ".mass",
+                                                  ".max_volume", ".bending_model", ".quality"};
 
 bool says_how(const std::string& key) {
   if (key == "time.fps" || key == "time.duration") return false;
@@ -125,8 +125,9 @@ std::vector<Axis> axes_of(const SweepRequest& request, const assets::Scene& scen
 void check_axes(const SweepRequest& request, const assets::Scene& scene, std::vector<Axis>& axes) {
   for (Axis& axis : axes) {
     if (axis.key.empty() && resolution_overrides(scene, 1).empty())
-      throw UserError(ErrorKind::kUsage, "--resolutions: the scene has no grid, block or chain, and no mesh with "
-                                         "tetrahedralize.max_volume, whose cells could be changed");
+      throw UserError(ErrorKind::kUsage,
+                      "--resolutions: the scene has no grid, block or chain, and no mesh with "
+                      "tetrahedralize.max_volume, whose cells could be changed");
     std::vector<std::string> possible;
     for (const std::string& value : axis.values) {
       try {
@@ -137,11 +138,12 @@ void check_axes(const SweepRequest& request, const assets::Scene& scene, std::ve
       }
     }
     if (!axis.key.empty() && !says_how(axis.key))
-      throw UserError(ErrorKind::kUsage,
-                      fmt::format("--sweep {}: this key changes what is simulated, not how: errors against one reference "
-                                  "would mean nothing. Keys of time (without fps and duration), solver and contact, "
-                                  "and cells, links, mass, max_volume of bodies can be swept",
-                                  axis.key));
+      throw UserError(
+          ErrorKind::kUsage,
+          fmt::format("--sweep {}: this key changes what is simulated, not how: errors against one reference "
+                      "would mean nothing. Keys of time (without fps and duration), solver and contact, "
+                      "and cells, links, mass, max_volume of bodies can be swept",
+                      axis.key));
     axis.values = std::move(possible);
   }
   std::erase_if(axes, [](const Axis& axis) { return axis.values.empty(); });

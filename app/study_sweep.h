@@ -10,11 +10,11 @@ namespace softreel::app {
 
 /// What the command line asks for; empty lists: what suits the scene.
 struct SweepRequest {
-  std::string scene;                       ///< file
-  std::vector<std::string> overrides;      ///< key=value, for all variants
+  std::string scene;                   ///< file
+  std::vector<std::string> overrides;  ///< key=value, for all variants
   std::vector<std::string> integrators, substeps, tolerances, linear;
-  std::vector<std::string> resolutions;    ///< factors on the cells of grids, blocks and chains
-  std::vector<std::string> sweeps;         ///< key=v1,v2
+  std::vector<std::string> resolutions;  ///< factors on the cells of grids, blocks and chains
+  std::vector<std::string> sweeps;       ///< key=v1,v2
 };
 
 struct StudyVariant {
@@ -27,9 +27,9 @@ struct StudyVariant {
 };
 
 struct Sweep {
-  assets::Scene scene;                ///< as it is, with the overrides for all
-  std::vector<StudyVariant> variants; ///< each of other physics; one of them is what the scene uses now
-  double finest = 1;                  ///< largest factor of resolution
+  assets::Scene scene;                 ///< as it is, with the overrides for all
+  std::vector<StudyVariant> variants;  ///< each of other physics; one of them is what the scene uses now
+  double finest = 1;                   ///< largest factor of resolution
   int most_substeps = 1;
 };
 

@@ -1,0 +1,165 @@
+#include "app/study_row.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "assets/atomic_file.h"
+#include "assets/error.h"
+#include "assets/state_file.h"
+
+namespace softreel::app {
+namespace {
+
+using nlohmann::json;
+
+/// JSON has no infinity: null.
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+double number_of(const json& j) {
+  return j.is_null() ? std::numeric_limits<double>::infinity() : j.get<double>();
+}
+
+void put(json& j, const char* key, const std::optional<double>& value) {
+  if (value) j[key] = number(*value);
+}
+void take(const json& j, const char* key, std::optional<double>& value) {
+  if (j.contains(key)) value = number_of(j.at(key));
+}
+
+constexpr const char* kEnds[] = {"refused", "failed", "stopped", "out of budget"};
+
+json errors_json(const PositionErrors& e) {
+  return {{"end_rms_m", number(e.end)},      {"clip_rms_m", number(e.clip)},     {"worst_rms_m", number(e.worst)},
+          {"largest_m", number(e.largest)},  {"end_rms_px", number(e.end_px)},   {"largest_px", number(e.largest_px)}};
+}
+
+PositionErrors errors_of(const json& j) {
+  return {number_of(j.at("end_rms_m")), number_of(j.at("clip_rms_m")), number_of(j.at("worst_rms_m")),
+          number_of(j.at("largest_m")), number_of(j.at("end_rms_px")), number_of(j.at("largest_px"))};
+}
+
+json drifts_json(const Drifts& d) {
+  json j = json::object();
+  put(j, "energy", d.energy);
+  put(j, "momentum", d.momentum);
+  put(j, "angular_momentum", d.angular);
+  put(j, "volume", d.volume);
+  put(j, "penetration_m", d.penetration);
+  put(j, "pins_m", d.pins);
+  return j;
+}
+
+Drifts drifts_of(const json& j) {
+  Drifts d;
+  take(j, "energy", d.energy);
+  take(j, "momentum", d.momentum);
+  take(j, "angular_momentum", d.angular);
+  take(j, "volume", d.volume);
+  take(j, "penetration_m", d.penetration);
+  take(j, "pins_m", d.pins);
+  return d;
+}
+
+}  // namespace
+
+std::string StudyRow::status() const {
+  return failure ? kEnds[static_cast<size_t>(failure->end)] : std::string();
+}
+
+std::string row_json(const StudyRow& r) {
+  json j = {{"run", r.run},
+            {"repeats", r.repeats},
+            {"seconds", {{"wall", r.wall}, {"processor", r.processor}, {"setup", r.setup}}},
+            {"stages",
+             {{"gradient", r.stages.gradient},
+              {"assemble", r.stages.assemble},
+              {"solve", r.stages.solve},
+              {"contact", r.stages.contact},
+              {"total", r.stages.total}}},
+            {"steps", r.steps},
+            {"newton_iterations", r.newton},
+            {"linear_iterations", r.linear},
+            {"retried_steps", r.retries},
+            {"peak_memory_bytes", r.peak_memory},
+            {"vertices", r.vertices},
+            {"drifts", drifts_json(r.drifts)}};
+  j["energy_change"] = json::array();
+  for (const double e : r.energy) j["energy_change"].push_back(number(e));
+  if (r.errors) j["errors"] = errors_json(*r.errors);
+  if (r.failure)
+    j["failure"] = {{"kind", r.status()},
+                    {"frame", r.failure->frame},
+                    {"time", r.failure->time},
+                    {"step", r.failure->step},
+                    {"why", r.failure->why}};
+  return j.dump(1, ' ', false, json::error_handler_t::replace);
+}
+
+bool parse_row_json(const std::string& text, StudyRow& row) {
+  try {
+    const json j = json::parse(text);
+    StudyRow r = row;
+    r.run = j.at("run");
+    r.repeats = j.at("repeats");
+    r.wall = j.at("seconds").at("wall");
+    r.processor = j.at("seconds").at("processor");
+    r.setup = j.at("seconds").at("setup");
+    const json& s = j.at("stages");
+    r.stages = {s.at("gradient"), s.at("assemble"), s.at("solve"), s.at("contact"), s.at("total")};
+    r.steps = j.at("steps");
+    r.newton = j.at("newton_iterations");
+    r.linear = j.at("linear_iterations");
+    r.retries = j.at("retried_steps");
+    r.peak_memory = j.at("peak_memory_bytes");
+    r.vertices = j.at("vertices");
+    r.drifts = drifts_of(j.at("drifts"));
+    for (const json& e : j.at("energy_change")) r.energy.push_back(number_of(e));
+    if (j.contains("errors")) r.errors = errors_of(j.at("errors"));
+    if (j.contains("failure")) {
+      const json& f = j.at("failure");
+      TrialFailure failure{TrialEnd::kFailed, f.at("frame"), f.at("time"), f.at("step"), f.at("why")};
+      for (size_t i = 0; i < std::size(kEnds); ++i)
+        if (f.at("kind") == kEnds[i]) failure.end = static_cast<TrialEnd>(i);
+      r.failure = failure;
+    }
+    row = std::move(r);
+    return true;
+  } catch (const json::exception&) {
+    return false;  // written by another version, or damaged
+  }
+}
+
+void StudyStore::write(const std::string& hash, const StudyRow& row, const CachedFrame* last) const {
+  assets::make_folders(folder_);
+  if (last) {
+    assets::StateRecord record;
+    record.arrays["x"] = {last->state.x.data(), last->state.x.data() + last->state.x.size()};
+    record.scalars["t"] = last->state.t;
+    assets::write_state(folder_ / (hash + ".state"), hash, record);
+  }
+  assets::write_file_atomically(folder_ / (hash + ".json"), row_json(row));
+}
+
+bool StudyStore::read(const std::string& hash, StudyRow& row) const {
+  const std::filesystem::path file = folder_ / (hash + ".json");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  try {
+    return parse_row_json(assets::read_file(file), row);
+  } catch (const assets::UserError&) {
+    return false;  // it is measured again
+  }
+}
+
+std::optional<CachedFrame> StudyStore::last_frame(const std::string& hash) const {
+  const auto record = assets::read_state(folder_ / (hash + ".state"), hash);
+  if (!record || !record->arrays.contains("x") || !record->scalars.contains("t")) return std::nullopt;
+  CachedFrame frame;
+  const std::vector<double>& x = record->arrays.at("x");
+  frame.state.x = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+  frame.state.t = record->scalars.at("t");
+  return frame;
+}
+
+}  // namespace softreel::app
