@@ -62,7 +62,8 @@ std::filesystem::path apply_file(const StudyArguments& a) {
 
 StudyView view_of(const Sweep& sweep, const StudyReference& reference, SharedShapes& shapes) {
   ClipExtent extent;
-  for (const CachedFrame& frame : reference.frames) add_frame(reference.scene, shapes.of(reference.scene), frame, extent);
+  for (const CachedFrame& frame : reference.frames)
+    add_frame(reference.scene, shapes.of(reference.scene), frame, extent);
   return StudyView(sweep.scene, extent);
 }
 
@@ -72,7 +73,8 @@ std::vector<ReportPicture> pictures(const Sweep& sweep, const std::vector<StudyR
                                     const StudyReference& reference, SharedShapes& shapes) {
   std::vector<ReportPicture> result;
   ClipExtent extent;
-  for (const CachedFrame& frame : reference.frames) add_frame(reference.scene, shapes.of(reference.scene), frame, extent);
+  for (const CachedFrame& frame : reference.frames)
+    add_frame(reference.scene, shapes.of(reference.scene), frame, extent);
   for (const auto& [row, what] : {std::pair{best_row(rows), "best"}, std::pair{worst_row(rows), "worst"}}) {
     if (!row) return result;
     const size_t i = static_cast<size_t>(row - rows.data());
@@ -116,9 +118,8 @@ std::string warning_of(const Sweep& sweep, const StudyReference& reference, cons
         "depends on the smallest differences, and errors below that say nothing.",
         reference.floor);
   if (!sweep.scene.fields.empty()) warning += " Scalar fields are stepped along but not measured.";
-  const auto out = std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) {
-    return r.failure && r.failure->end == TrialEnd::kBudget;
-  });
+  const auto out = std::count_if(rows.begin(), rows.end(),
+                                 [](const StudyRow& r) { return r.failure && r.failure->end == TrialEnd::kBudget; });
   if (out > 0) warning += fmt::format(" {} of {} runs did not fit into the budget.", out, rows.size());
   return warning.empty() || warning[0] != ' ' ? warning : warning.substr(1);
 }
@@ -133,7 +134,8 @@ std::filesystem::path write_study(const std::filesystem::path& output, StudyRepo
   for (const StudyPlot& plot : {error_plot(title, rows, reference), energy_plot(title, rows, scene)}) {
     if (plot.script.empty()) continue;
     if (!draw_plot(plot, output)) {
-      say(quiet, "note: there is no program gnuplot in PATH (Debian: apt install gnuplot-nox), so the study has no plots");
+      say(quiet,
+          "note: there is no program gnuplot in PATH (Debian: apt install gnuplot-nox), so the study has no plots");
       break;
     }
     report.plots.push_back(assets::read_file(output / (plot.name + ".svg")));
@@ -151,8 +153,8 @@ int run_study(const StudyArguments& a) {
   const double budget = parse_budget(a.budget);
   if (!a.apply.empty()) parse_target(a.apply);
   const std::filesystem::path target = a.apply.empty() ? std::filesystem::path() : apply_file(a);
-  const SweepRequest request{a.scene,  a.overrides, a.integrators, a.substeps,
-                             a.tolerances, a.linear, a.resolutions, a.sweeps};
+  const SweepRequest request{a.scene,      a.overrides, a.integrators, a.substeps,
+                             a.tolerances, a.linear,    a.resolutions, a.sweeps};
   const Sweep sweep = plan_sweep(request);
   if (sweep.scene.soft.empty() && sweep.scene.cloth.empty() && sweep.scene.springs.empty())
     throw UserError(ErrorKind::kUsage, a.scene,
@@ -167,9 +169,10 @@ int run_study(const StudyArguments& a) {
   promise_to_go_on();
   const std::filesystem::path cache = output / "cache";
   SharedShapes shapes(cache);
-  const StudyPoints points = study_points(sweep.scene, shapes.of(sweep.scene),
-                                          sweep.scene.reference ? sweep.scene.reference->body.place : "");
-  const StudyReference reference = make_reference(request, sweep, points, shapes, cache, kReferencePart * budget, a.quiet);
+  const StudyPoints points =
+      study_points(sweep.scene, shapes.of(sweep.scene), sweep.scene.reference ? sweep.scene.reference->body.place : "");
+  const StudyReference reference =
+      make_reference(request, sweep, points, shapes, cache, kReferencePart * budget, a.quiet);
   const StudyView view = view_of(sweep, reference, shapes);
   const StudyStore store(cache / "rows");
   const auto end = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget));
@@ -180,8 +183,8 @@ int run_study(const StudyArguments& a) {
     throw UserError(ErrorKind::kUsage, fmt::format("--budget {}: is too small for one run; {}", a.budget,
                                                    rows.front().failure ? rows.front().failure->why : ""));
   StudyReport report;
-  report.head = {a.scene, a.command, machine_text(), version_text(), sim::threads(), budget,
-                 warning_of(sweep, reference, rows)};
+  report.head = {
+      a.scene, a.command, machine_text(), version_text(), sim::threads(), budget, warning_of(sweep, reference, rows)};
   report.lines = study_lines(rows, reference.size);
   if (sweep.scene.fields.empty()) report.pictures = pictures(sweep, rows, hashes, store, reference, shapes);
   const std::filesystem::path html = write_study(output, report, rows, reference, sweep.scene, a.quiet);

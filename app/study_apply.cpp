@@ -44,7 +44,8 @@ size_t end_of_value(const std::string& text, size_t at) {
       ++depth;
     else if ((c == ']' || c == '}') && depth > 0) {
       if (--depth == 0) return at + 1;
-    } else if (depth == 0 && (c == ',' || c == '}' || c == ']' || c == '#' || c == '\n' || c == '\r' || c == ' ' || c == '\t'))
+    } else if (depth == 0 &&
+               (c == ',' || c == '}' || c == ']' || c == '#' || c == '\n' || c == '\r' || c == ' ' || c == '\t'))
       return at;
   }
   return at;
@@ -54,9 +55,8 @@ size_t end_of_value(const std::string& text, size_t at) {
 std::string toml_value(const std::string& value) {
   try {
     const assets::Node node = assets::parse_override_value(value, {});
-    return node.kind == Node::Kind::kString && !value.starts_with('"') && !value.starts_with('\'')
-               ? "\"" + value + "\""
-               : value;
+    return node.kind == Node::Kind::kString && !value.starts_with('"') && !value.starts_with('\'') ? "\"" + value + "\""
+                                                                                                   : value;
   } catch (const assets::UserError&) {
     return value;
   }

@@ -15,8 +15,8 @@ struct StudyPlot {
   std::string script;
 };
 
-/// Error over seconds, both logarithmic; one line for each method with its observed order, failures at the top edge,
-/// the reference's own error as a line.
+/// Error over seconds, both logarithmic; one line for each method with its observed order, failures at the top edge
+/// (at the seconds that they would have taken to the end), the reference's own error as a line.
 StudyPlot error_plot(const std::string& title, const std::vector<StudyRow>& rows, const StudyReference& reference);
 
 /// Change of the total energy over the clip, of one run for each integrator: that with as many steps as the scene takes

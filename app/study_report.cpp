@@ -42,8 +42,7 @@ document.querySelectorAll('th').forEach(function (head, column) {
 
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : text)
-    switch (c) {
+  for (const char c : text) switch (c) {
       case '<':
         result += "&lt;";
         break;
@@ -69,8 +68,7 @@ std::string base64(const std::string& bytes) {
     unsigned group = 0;
     for (size_t k = 0; k < 3; ++k)
       group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+    for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
   }
   return text;
 }
@@ -126,28 +124,32 @@ std::string study_html(const StudyReport& report, const std::vector<StudyRow>& r
       "<h1>Error against run time: {0}</h1>\n<pre>{2}</pre>\n",
       escaped(h.scene), kStyle, escaped(report.lines));
   if (!h.warning.empty()) html += fmt::format("<p class=\"warning\">{}</p>\n", escaped(h.warning));
-  html += fmt::format("<p>Measured against {}, whose own error is {}. The scene is {:.3g} m across.</p>\n",
-                      escaped(reference.what),
-                      reference.floor > 0 ? fmt::format("about {:.2g} m: nothing below it can be read off", reference.floor)
-                                          : "that of rounding",
-                      reference.size);
+  html += fmt::format(
+      "<p>Measured against {}, whose own error is {}. The scene is {:.3g} m across.</p>\n", escaped(reference.what),
+      reference.floor > 0 ? fmt::format("about {:.2g} m: nothing below it can be read off", reference.floor)
+                          : "that of rounding",
+      reference.size);
   for (const std::string& plot : report.plots) html += inline_svg(plot) + "\n";
   if (!report.pictures.empty()) html += "<h2>The last frame</h2>\n";
   for (const ReportPicture& p : report.pictures)
-    html += fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-                        escaped(p.caption), base64(p.png));
-  html += "<h2>All runs</h2>\n<p>A click on a head sorts. RMS: over all points of a frame.</p>\n<div class=\"table\">"
-          "<table><thead><tr>";
+    html += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        escaped(p.caption), base64(p.png));
+  html +=
+      "<h2>All runs</h2>\n<p>A click on a head sorts. RMS: over all points of a frame.</p>\n<div class=\"table\">"
+      "<table><thead><tr>";
   for (const char* head :
-       {"settings", "wall [s]", "worst RMS [m]", "of size [%]", "end RMS [m]", "clip RMS [m]", "largest [m]",
-        "largest [px]", "energy drift", "momentum", "angular m.", "volume", "penetration [m]", "pins [m]",
-        "processor [s]", "gradient [s]", "assemble [s]", "solve [s]", "contact [s]", "other [s]", "steps", "Newton",
-        "linear", "retried", "memory [MiB]", "failure"})
+       {"settings",        "wall [s]",     "worst RMS [m]", "of size [%]",  "end RMS [m]",  "clip RMS [m]",
+        "largest [m]",     "largest [px]", "energy drift",  "momentum",     "angular m.",   "volume",
+        "penetration [m]", "pins [m]",     "processor [s]", "gradient [s]", "assemble [s]", "solve [s]",
+        "contact [s]",     "other [s]",    "steps",         "Newton",       "linear",       "retried",
+        "memory [MiB]",    "failure"})
     html += fmt::format("<th>{}</th>", head);
   html += "</tr></thead><tbody>\n";
   for (const StudyRow& r : rows) html += row_html(r, reference.size);
-  html += fmt::format("</tbody></table></div>\n<h2>How it was made</h2>\n<pre>{}\n\n{}\n{} in use, budget {:.6g} s\n\n{}</pre>\n",
-                      escaped(h.command), escaped(h.machine), h.threads, h.budget, escaped(h.versions));
+  html += fmt::format(
+      "</tbody></table></div>\n<h2>How it was made</h2>\n<pre>{}\n\n{}\n{} in use, budget {:.6g} s\n\n{}</pre>\n",
+      escaped(h.command), escaped(h.machine), h.threads, h.budget, escaped(h.versions));
   return html + fmt::format("<script>{}</script></body></html>\n", kScript);
 }
 

@@ -16,9 +16,7 @@ using nlohmann::json;
 
 /// JSON has no infinity: null.
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-double number_of(const json& j) {
-  return j.is_null() ? std::numeric_limits<double>::infinity() : j.get<double>();
-}
+double number_of(const json& j) { return j.is_null() ? std::numeric_limits<double>::infinity() : j.get<double>(); }
 
 void put(json& j, const char* key, const std::optional<double>& value) {
   if (value) j[key] = number(*value);
@@ -30,8 +28,8 @@ void take(const json& j, const char* key, std::optional<double>& value) {
 constexpr const char* kEnds[] = {"refused", "failed", "stopped", "out of budget"};
 
 json errors_json(const PositionErrors& e) {
-  return {{"end_rms_m", number(e.end)},      {"clip_rms_m", number(e.clip)},     {"worst_rms_m", number(e.worst)},
-          {"largest_m", number(e.largest)},  {"end_rms_px", number(e.end_px)},   {"largest_px", number(e.largest_px)}};
+  return {{"end_rms_m", number(e.end)},     {"clip_rms_m", number(e.clip)},   {"worst_rms_m", number(e.worst)},
+          {"largest_m", number(e.largest)}, {"end_rms_px", number(e.end_px)}, {"largest_px", number(e.largest_px)}};
 }
 
 PositionErrors errors_of(const json& j) {
@@ -63,9 +61,7 @@ Drifts drifts_of(const json& j) {
 
 }  // namespace
 
-std::string StudyRow::status() const {
-  return failure ? kEnds[static_cast<size_t>(failure->end)] : std::string();
-}
+std::string StudyRow::status() const { return failure ? kEnds[static_cast<size_t>(failure->end)] : std::string(); }
 
 std::string row_json(const StudyRow& r) {
   json j = {{"run", r.run},

@@ -16,8 +16,8 @@ struct StudyRow {
   bool present = false;                                       ///< what the scene uses now
   double step = 0;                                            ///< [s]
 
-  bool run = false;                     ///< it was tried; otherwise the budget was over before
-  std::optional<TrialFailure> failure;  ///< also of what was not tried
+  bool run = false;                      ///< it was tried; otherwise the budget was over before
+  std::optional<TrialFailure> failure;   ///< also of what was not tried
   std::optional<PositionErrors> errors;  ///< of runs that came to the end
   Drifts drifts;
   std::vector<double> energy;  ///< change of the total energy at each frame [J], as far as it came

@@ -18,10 +18,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kVersion = 1;         // raised when rows come out different
-constexpr double kLost = 10;        // sizes of the scene: farther from where it belongs, a run is given up
-constexpr double kMeasured = 0.02;  // [s] of repeats, below which a clock and other work make a median jump
-constexpr double kRepeatPart = 100; // a run is repeated if it takes at most this part of the budget left
+constexpr int kVersion = 1;          // raised when rows come out different
+constexpr double kLost = 10;         // sizes of the scene: farther from where it belongs, a run is given up
+constexpr double kMeasured = 0.1;    // [s] of repeats, below which a clock and other work make a median jump
+constexpr double kRepeatPart = 100;  // a run is repeated if it takes at most this part of the budget left
 
 double seconds_until(Clock::time_point end) { return std::chrono::duration<double>(end - Clock::now()).count(); }
 
@@ -171,9 +171,9 @@ std::vector<StudyRow> run_variants(const StudyPlan& plan, SharedShapes& shapes, 
     progress.advance();
   }
   for (const size_t i : left)
-    rows[i].failure = TrialFailure{TrialEnd::kBudget, 1, 0, 0,
-                                   fmt::format("not run: about {:.3g} s would have been needed",
-                                               expected_seconds(variants, rows, i))};
+    rows[i].failure = TrialFailure{
+        TrialEnd::kBudget, 1, 0, 0,
+        fmt::format("not run: about {:.3g} s would have been needed", expected_seconds(variants, rows, i))};
   return rows;
 }
 

@@ -29,8 +29,7 @@ std::string present_line(const std::vector<StudyRow>& rows, double size) {
   const auto now = std::find_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.present; });
   if (now == rows.end()) return {};
   std::string line = fmt::format("the scene now:       {}: ", now->label);
-  if (!now->done())
-    return line + fmt::format("{}: {}\n", now->status(), now->failure->why);
+  if (!now->done()) return line + fmt::format("{}: {}\n", now->status(), now->failure->why);
   line += fmt::format("{:.3g} s, {}", now->wall, error_text(*now, size));
   const StudyRow* best = fastest(rows, {StudyTarget::Kind::kMetres, now->errors->worst}, size);
   if (best == &*now || !best) return line + "; nothing here is as good in less time\n";

@@ -44,8 +44,7 @@ std::string study_csv(const std::vector<StudyRow>& rows, const StudyReference& r
     }
     if (r.errors) {
       const PositionErrors& e = *r.errors;
-      for (const double v :
-           {e.worst, e.worst / reference.size, e.end, e.clip, e.largest, e.end_px, e.largest_px})
+      for (const double v : {e.worst, e.worst / reference.size, e.end, e.clip, e.largest, e.end_px, e.largest_px})
         c.push_back(cell(v));
     } else {
       c.resize(c.size() + 7);
@@ -69,14 +68,10 @@ std::string study_csv(const std::vector<StudyRow>& rows, const StudyReference& r
 
 std::string study_json(const StudyHead& head, const std::vector<StudyRow>& rows, const StudyReference& reference) {
   using nlohmann::json;
-  json j = {{"scene", head.scene},
-            {"command", head.command},
-            {"machine", head.machine},
-            {"threads", head.threads},
-            {"versions", head.versions},
-            {"budget_seconds", head.budget},
-            {"size_m", reference.size},
-            {"reference", {{"what", reference.what}, {"floor_m", reference.floor}}}};
+  json j = {{"scene", head.scene},       {"command", head.command},
+            {"machine", head.machine},   {"threads", head.threads},
+            {"versions", head.versions}, {"budget_seconds", head.budget},
+            {"size_m", reference.size},  {"reference", {{"what", reference.what}, {"floor_m", reference.floor}}}};
   if (reference.order > 0) j["reference"]["observed_order"] = reference.order;
   if (!head.warning.empty()) j["warning"] = head.warning;
   j["orders"] = json::object();
