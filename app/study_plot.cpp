@@ -26,7 +26,7 @@ constexpr const char* kStyle = R"(set encoding utf8
 set border 11 lc rgb "#555555" lw 1
 set tics nomirror out scale 0.6 textcolor rgb "#333333"
 set grid xtics ytics lc rgb "#dddddd" lw 0.6 dt 1
-set key outside right top Left reverse spacing 1.25 samplen 2.4 width -6 textcolor rgb "#222222"
+set key below center maxcols 3 Left reverse spacing 1.3 samplen 2.4 width 1 height 0.5 textcolor rgb "#222222"
 set xlabel textcolor rgb "#222222"
 set ylabel textcolor rgb "#222222"
 set y2label textcolor rgb "#222222"
@@ -105,6 +105,35 @@ struct Curves {
   int count_ = 0;
 };
 
+std::string tics(const char* axis, const std::vector<std::string>& list) {
+  return fmt::format("set {}tics ({})\n", axis, fmt::join(list, ", "));
+}
+
+/// Each decade in percent of the size, in words that are read at a glance.
+std::string percent_tics(double bottom, double top, double size) {
+  std::vector<std::string> list;
+  const int last = static_cast<int>(std::floor(std::log10(100 * top / size)));
+  for (int e = static_cast<int>(std::ceil(std::log10(100 * bottom / size))); e <= last; ++e)
+    list.push_back(e >= -3 && e <= 3 ? fmt::format("\"{0:.10g} %%\" {0:.10g}", std::pow(10, e))
+                                     : fmt::format("\"10^{{{}}} %%\" {:.10g}", e, std::pow(10, e)));
+  return tics("y2", list);
+}
+
+/// Decades of seconds, and with few of them 2 and 5 in between.
+std::string second_tics(double left, double right) {
+  std::vector<std::string> list;
+  const bool few = right < 200 * left;
+  for (int e = static_cast<int>(std::floor(std::log10(left))); e <= std::log10(right); ++e)
+    for (const double m : {1.0, 2.0, 5.0}) {
+      const double s = m * std::pow(10, e);
+      if ((m != 1 && !few) || s < left || s > right) continue;
+      list.push_back(s < 0.9e-3 ? fmt::format("\"{:.4g} µs\" {:.10g}", 1e6 * s, s)
+                     : s < 0.9  ? fmt::format("\"{:.4g} ms\" {:.10g}", 1e3 * s, s)
+                                : fmt::format("\"{:.4g} s\" {:.10g}", s, s));
+    }
+  return tics("x", list);
+}
+
 /// What all plots begin with.
 std::string frame(const std::string& title, const std::string& below) {
   return kStyle +
@@ -132,15 +161,16 @@ StudyPlot error_plot(const std::string& title, const std::vector<StudyRow>& rows
   const double floor = reference.floor;
   // One far below everything would squeeze the rest: it is told in words then.
   const double lowest = floor > 1e-3 * y.lo && floor < y.lo ? floor : y.lo;
-  const double bottom = std::pow(10, std::floor(std::log10(lowest / 1.5)));
+  const double bottom = std::pow(10, std::floor(std::log10(lowest / (lowest == floor ? 8 : 1.5))));
   const double top = std::pow(10, std::ceil(std::log10(y.hi * 1.5)));
   const double left = x.lo / 1.6, right = x.hi * 1.6;
   std::string script = frame(title, fmt::format("measured against {}{}", reference.what,
                                                 floor > 0 ? fmt::format(", whose own error is {:.1g} m", floor) : ""));
-  script += "set logscale xyy2\nset format xy \"10^{%L}\"\n";
-  script += "set xlabel \"seconds of simulation (wall, median)\"\n";
+  script += "set logscale xyy2\nset format y \"10^{%L}\"\n";
+  script += "set xlabel \"time of the simulation (wall, median)\"\n";
   script += "set ylabel \"position error: largest RMS of a frame [m]\"\n";
-  script += "set ytics nomirror\nset y2tics format \"%.10g %%\"\nset y2label \"of the scene's size\"\n";
+  script += "set ytics nomirror\nset y2label \"of the scene's size\"\n" + percent_tics(bottom, top, reference.size);
+  script += second_tics(left, right);
   script += range("x", left, right) + range("y", bottom, top) +
             range("y2", 100 * bottom / reference.size, 100 * top / reference.size);
   if (const double percent = reference.size / 100; percent > bottom && percent < top)
@@ -216,9 +246,9 @@ StudyPlot energy_plot(const std::string& title, const std::vector<StudyRow>& row
 bool draw_plot(const StudyPlot& plot, const std::filesystem::path& folder) {
   if (find_program("gnuplot").empty()) return false;
   for (const auto& [ending, terminal] :
-       {std::pair{".svg", "svg size 1000,560 dynamic font \"DejaVu Sans,12\" background \"#ffffff\""},
+       {std::pair{".svg", "svg size 900,640 dynamic font \"DejaVu Sans,12\" background \"#ffffff\""},
         std::pair{".png",
-                  "pngcairo size 1500,840 font \"DejaVu Sans,12\" fontscale 1.4 linewidth 1.6 pointscale 1.5 "
+                  "pngcairo size 1500,1060 font \"DejaVu Sans,12\" fontscale 1.4 linewidth 1.6 pointscale 1.5 "
                   "background \"#ffffff\""}}) {
     const std::filesystem::path file = folder / (plot.name + ending);
     const std::filesystem::path temporary = folder / fmt::format(".{}.{}{}", plot.name, getpid(), ending);

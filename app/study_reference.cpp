@@ -24,11 +24,10 @@ using assets::ErrorKind;
 using assets::UserError;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kVersion = 1;          // raised when references come out different
-constexpr double kEnough = 1e-9;     // error relative to the scene's size
-constexpr double kTrusted = 1e-3;    // above that a second method is tried
-constexpr int kFinest = 64;          // times the substeps of the sweep
-constexpr int kMostRefinements = 6;  // doublings until an explicit method holds
+constexpr int kVersion = 1;        // raised when references come out different
+constexpr double kEnough = 1e-11;  // error relative to the scene's size
+constexpr double kTrusted = 1e-3;  // above that a second method is tried
+constexpr int kFinest = 64;        // times the substeps of the sweep
 
 struct Method {
   const char* integrator;
@@ -98,18 +97,22 @@ class Climber {
   Climber(const StudyPoints& points, SharedShapes& shapes, double size, Clock::time_point end)
       : points_(points), shapes_(shapes), size_(size), end_(end) {}
 
-  Ladder climb(const assets::Scene& base, const Method& method, int start) {
+  /// From `most` / 64 substeps on, so that a budget too small for `most` still gives something; ends above `most`,
+  /// where no run of the sweep is its own reference.
+  Ladder climb(const assets::Scene& base, const Method& method, int most) {
     Ladder ladder;
     ladder.method = method;
     assets::Scene scene = reference_scene(base, method);
     const Shapes& shapes = shapes_.of(scene);
     const PointMap map(points_, shapes);
     double seconds = 0;
-    const long finest = static_cast<long>(start) * kFinest;
-    for (int substeps = start; substeps <= finest; substeps *= 2) {
+    const long finest = static_cast<long>(most) * kFinest;
+    for (long substeps = (most + kFinest - 1) / kFinest; substeps <= finest; substeps *= 2) {
       // A level takes twice what the one before took.
-      if (ladder.levels.size() >= 2 && (ladder.floor < kEnough * size_ || 2 * seconds > left())) break;
-      scene.time.substeps = substeps;
+      const size_t n = ladder.levels.size();
+      if (n >= 2 && 2 * seconds > left()) break;
+      if (n >= 3 && ladder.levels.back().substeps > most && ladder.floor < kEnough * size_) break;
+      scene.time.substeps = static_cast<int>(substeps);
       TrialOptions options;
       options.seconds = left();
       const Clock::time_point begin = Clock::now();
@@ -121,12 +124,14 @@ class Climber {
         ladder.failure = fmt::format("{}, {} substeps: {} (t = {:.4g} s)", method.integrator, substeps,
                                      trial.failure->why, trial.failure->time);
         ladder.out_of_time = trial.failure->end == TrialEnd::kBudget;
-        if (ladder.out_of_time || !ladder.levels.empty() || substeps >= start << kMostRefinements) break;
+        if (ladder.out_of_time) break;
+        ladder.levels.clear();  // what held with longer steps was luck
         continue;
       }
-      Level level{substeps, std::move(trial.frames), {}};
+      Level level{static_cast<int>(substeps), std::move(trial.frames), {}};
       for (const CachedFrame& frame : level.frames) level.points.push_back(map.at(frame.state.x));
       ladder.levels.push_back(std::move(level));
+      if (ladder.levels.size() > 3) ladder.levels.erase(ladder.levels.begin());  // no more are needed
       estimate(ladder);
     }
     return ladder;
@@ -256,7 +261,7 @@ StudyReference make_reference(const SweepRequest& request, const Sweep& sweep, c
     std::vector<Ladder> ladders;
     Ladder* best = nullptr;
     for (const Method& method : methods_for(r.scene)) {
-      if (best && (best->floor < kTrusted * r.size || climber.left() <= 0)) break;
+      if ((best && best->floor < kTrusted * r.size) || (!ladders.empty() && climber.left() <= 0)) break;
       const size_t chosen = best ? static_cast<size_t>(best - ladders.data()) : 0;
       ladders.push_back(climber.climb(r.scene, method, sweep.most_substeps));
       if (best) best = &ladders[chosen];

@@ -22,9 +22,10 @@ struct StudyReference {
 };
 
 /// The closed form that the scene declares, or else a run with far more substeps, of rk4 where it holds and of bdf2
-/// where it does not (static: of static), doubled until its own error is below `size` times 1e-9, it has 64 times the
-/// substeps of the sweep, or `seconds` are over. Its error is that of Richardson's extrapolation over the last levels
-/// (Roache 1994, "Perspective: a method for uniform reporting of grid refinement studies").
+/// where it does not (static: of static), doubled until it has more than they and its own error is below `size` times
+/// 1e-11, it has 64 times the substeps of the sweep, or `seconds` are over. Its error is that of Richardson's
+/// extrapolation over the last levels (Roache 1994, "Perspective: a method for uniform reporting of grid refinement
+/// studies").
 ///
 /// Kept in `folder`, so that it is computed once. Throws UserError: kUsage when `seconds` are not enough or the closed
 /// form does not start where the body does; kSimulation when no method holds; as ClipWorld for a scene that cannot be
