@@ -30,7 +30,7 @@ using assets::ErrorKind;
 using assets::UserError;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kReferencePart = 0.5;  // of the budget
+constexpr double kReferencePart = 0.5;  // of the budget, at most
 
 double parse_budget(const std::string& text) {
   double value = 0;

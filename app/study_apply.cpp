@@ -83,6 +83,7 @@ std::string set(const std::string& text, const std::string& file, const std::str
   }
   if (table == &root) {  // a table that is not there yet
     const size_t dot = rest.rfind('.');
+    if (dot == std::string::npos) return fmt::format("{} = {}\n", rest, written) + result;  // before every table
     if (!result.empty() && result.back() != '\n') result += '\n';
     return result + fmt::format("\n[{}]\n{} = {}\n", rest.substr(0, dot), rest.substr(dot + 1), written);
   }

@@ -50,6 +50,8 @@ struct Ladder {
   bool out_of_time = false;
 };
 
+double seconds_until(Clock::time_point end) { return std::chrono::duration<double>(end - Clock::now()).count(); }
+
 double apart(const Level& a, const Level& b) { return position_errors(a.points, b.points, nullptr).worst; }
 
 /// With levels h and h/2 the finer one's error is |x_h - x_h/2| / (2^p - 1). The order p is observed over three levels
@@ -94,12 +96,12 @@ assets::Scene reference_scene(assets::Scene scene, const Method& method) {
 
 class Climber {
  public:
-  Climber(const StudyPoints& points, SharedShapes& shapes, double size, Clock::time_point end)
-      : points_(points), shapes_(shapes), size_(size), end_(end) {}
+  Climber(const StudyPoints& points, SharedShapes& shapes, double size)
+      : points_(points), shapes_(shapes), size_(size) {}
 
   /// From `most` / 64 substeps on, so that a budget too small for `most` still gives something; ends above `most`,
   /// where no run of the sweep is its own reference.
-  Ladder climb(const assets::Scene& base, const Method& method, int most) {
+  Ladder climb(const assets::Scene& base, const Method& method, int most, Clock::time_point end) {
     Ladder ladder;
     ladder.method = method;
     assets::Scene scene = reference_scene(base, method);
@@ -110,11 +112,11 @@ class Climber {
     for (long substeps = (most + kFinest - 1) / kFinest; substeps <= finest; substeps *= 2) {
       // A level takes twice what the one before took.
       const size_t n = ladder.levels.size();
-      if (n >= 2 && 2 * seconds > left()) break;
+      if (n >= 2 && 2 * seconds > seconds_until(end)) break;
       if (n >= 3 && ladder.levels.back().substeps > most && ladder.floor < kEnough * size_) break;
       scene.time.substeps = static_cast<int>(substeps);
       TrialOptions options;
-      options.seconds = left();
+      options.seconds = seconds_until(end);
       const Clock::time_point begin = Clock::now();
       Trial trial = run_trial(scene, shapes, options);
       seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -137,13 +139,10 @@ class Climber {
     return ladder;
   }
 
-  double left() const { return std::chrono::duration<double>(end_ - Clock::now()).count(); }
-
  private:
   const StudyPoints& points_;
   SharedShapes& shapes_;
   double size_;
-  Clock::time_point end_;
 };
 
 /// What meshes that are halved once more still change is added to the floor as it is: near corners and contacts the
@@ -257,13 +256,17 @@ StudyReference make_reference(const SweepRequest& request, const Sweep& sweep, c
   const std::filesystem::path file = folder / ("reference_" + r.hash + ".state");
   if (!load(file, factor, r)) {
     say(quiet, "a finer run to measure against comes first");
-    Climber climber(points, shapes, r.size, end);
+    Climber climber(points, shapes, r.size);
     std::vector<Ladder> ladders;
     Ladder* best = nullptr;
-    for (const Method& method : methods_for(r.scene)) {
-      if ((best && best->floor < kTrusted * r.size) || (!ladders.empty() && climber.left() <= 0)) break;
+    const std::vector<Method> methods = methods_for(r.scene);
+    for (const Method& method : methods) {
+      if ((best && best->floor < kTrusted * r.size) || (!ladders.empty() && seconds_until(end) <= 0)) break;
       const size_t chosen = best ? static_cast<size_t>(best - ladders.data()) : 0;
-      ladders.push_back(climber.climb(r.scene, method, sweep.most_substeps));
+      // The first method leaves half of the time to the next, which it may need.
+      const bool last = method.integrator == methods.back().integrator;
+      const Clock::time_point until = last ? end : Clock::now() + (end - Clock::now()) / 2;
+      ladders.push_back(climber.climb(r.scene, method, sweep.most_substeps, until));
       if (best) best = &ladders[chosen];
       Ladder& l = ladders.back();
       if (l.levels.size() >= 2 && (!best || l.floor < best->floor)) best = &l;
@@ -272,7 +275,7 @@ StudyReference make_reference(const SweepRequest& request, const Sweep& sweep, c
     r.frames = best->levels.back().frames;
     r.floor = best->floor;
     r.order = best->order;
-    if (meshes) r.floor += mesh_floor(points, shapes, at_resolution(sweep.finest), *best, climber.left());
+    if (meshes) r.floor += mesh_floor(points, shapes, at_resolution(sweep.finest), *best, seconds_until(end));
     r.what = text_of(best->method.integrator, best->levels.back().substeps, factor);
     save(file, r, *best);
   }

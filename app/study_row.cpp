@@ -25,7 +25,7 @@ void take(const json& j, const char* key, std::optional<double>& value) {
   if (j.contains(key)) value = number_of(j.at(key));
 }
 
-constexpr const char* kEnds[] = {"refused", "failed", "stopped", "out of budget"};
+constexpr const char* kEnds[] = {"refused", "failed", "blew up", "out of budget"};
 
 json errors_json(const PositionErrors& e) {
   return {{"end_rms_m", number(e.end)},     {"clip_rms_m", number(e.clip)},   {"worst_rms_m", number(e.worst)},

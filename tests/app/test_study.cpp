@@ -70,8 +70,8 @@ TEST_CASE("study finds the declared order of every integrator against the closed
   size_t count = 0;
   for (const sim::MethodInfo& info : sim::integrators())
     if (info.order > 0) all.append(count++ ? "," : "").append(info.name);
-  const json result = study({kOscillator, "--integrators", all, "--tolerances", "1e-10", "--substeps", "8,16,32", "--set",
-                             "time.duration=0.7"},
+  const json result = study({kOscillator, "--integrators", all, "--tolerances", "1e-10", "--substeps", "8,16,32",
+                             "--set", "time.duration=0.7"},
                             folder / "out");
   CHECK(result.at("orders").size() == count);
   MESSAGE("largest deviation of an order: " << largest_order_error(result));
@@ -81,9 +81,10 @@ TEST_CASE("study finds the declared order of every integrator against the closed
 TEST_CASE("study finds the declared orders against a finer run, and stays above that run's own error") {
   test::TempFolder folder;
   const auto scene = folder.write("links.toml", kPendulum);
-  const json result = study({scene.string(), "--integrators", "implicit-euler,newmark,implicit-midpoint,bdf2,verlet,rk4",
-                             "--tolerances", "1e-10", "--substeps", "32,64,128"},
-                            folder / "out");
+  const json result =
+      study({scene.string(), "--integrators", "implicit-euler,newmark,implicit-midpoint,bdf2,verlet,rk4",
+             "--tolerances", "1e-10", "--substeps", "32,64,128"},
+            folder / "out");
   CHECK(result.at("orders").size() == 6);
   MESSAGE("largest deviation of an order: " << largest_order_error(result));
   const double floor = result.at("reference").at("floor_m");
@@ -160,8 +161,9 @@ TEST_CASE("a study without gnuplot says so and writes all the rest") {
 TEST_CASE("an interrupted study keeps what is done and goes on from there") {
   test::TempFolder folder;
   const auto scene = folder.write("links.toml", kPendulum);
-  const std::vector<std::string> command = {"study", scene.string(), "-o", (folder / "out").string(), "--integrators",
-                                            "verlet,rk4", "--substeps", "1,2,4,4096", "--repeats", "1"};
+  const std::vector<std::string> command = {
+      "study",      scene.string(), "-o", (folder / "out").string(), "--integrators", "verlet,rk4", "--substeps",
+      "1,2,4,4096", "--repeats",    "1"};
   const auto rows = folder / "out/cache/rows";
   const auto kept = [&] {
     auto files = test::files_below(rows);
@@ -197,8 +199,8 @@ TEST_CASE("--apply writes a copy with the recommended settings and leaves the sc
   test::TempFolder folder;
   const auto scene = folder.write("links.toml", kPendulum);
   const std::string out = (folder / "out").string();
-  const std::vector<std::string> sweep = {"study", scene.string(), "-o", out, "--integrators", "rk4,verlet",
-                                          "--substeps", "1,8", "--repeats", "1"};
+  const std::vector<std::string> sweep = {"study",      scene.string(), "-o",  out,         "--integrators",
+                                          "rk4,verlet", "--substeps",   "1,8", "--repeats", "1"};
   const auto with = [&](std::vector<std::string> more) {
     std::vector<std::string> all = sweep;
     all.insert(all.end(), more.begin(), more.end());
@@ -221,7 +223,8 @@ TEST_CASE("studies that cannot be are refused with what is wrong") {
   test::TempFolder folder;
   const std::string scene = folder.write("links.toml", kPendulum).string();
   const std::string out = (folder / "out").string();
-  const std::string field = folder.write("field.toml", "[[field]]\ngrid = {}\nfixed = [{ boundary = true }]\n").string();
+  const std::string field =
+      folder.write("field.toml", "[[field]]\ngrid = {}\nfixed = [{ boundary = true }]\n").string();
   const std::string unheld =
       folder.write("unheld.toml", "[[cloth]]\ngrid = { cells = [2, 2] }\npins = [{ box = [[5, 5, 5], [6, 6, 6]] }]\n")
           .string();
@@ -248,7 +251,8 @@ TEST_CASE("studies that cannot be are refused with what is wrong") {
   refused("a scene that cannot run", {unheld}, 2, {"holds no vertex"});
   refused("a closed form that begins elsewhere", {wrong}, 2, {"reference", "at t = 0"});
   refused("a missing scene", {(folder / "none.toml").string()}, 3, {"none.toml"});
-  refused("every run fails", {scene, "--set", "springs.links.stiffness=1e8", "--set", "time.integrator=verlet",
-                              "--set", "time.max_halvings=0", "--integrators", "verlet", "--substeps", "1"},
+  refused("every run fails",
+          {scene, "--set", "springs.links.stiffness=1e8", "--set", "time.integrator=verlet", "--set",
+           "time.max_halvings=0", "--integrators", "verlet", "--substeps", "1"},
           4, {"none of the", "report.html"});
 }

@@ -63,8 +63,11 @@ TEST_CASE("values of a sweep are taken apart at commas outside brackets") {
 
 TEST_CASE("settings go into a scene's text where they are or where they belong, comments stay") {
   const std::string body = "[[cloth]]\nname = \"a\"\ngrid = { size = [1, 1], cells = [4, 4] } # few\n";
-  const std::vector<std::pair<std::string, std::string>> settings = {
-      {"time.substeps", "7"}, {"time.integrator", "bdf2"}, {"solver.tolerance", "1e-5"}, {"cloth.1.grid.cells", "[2, 3]"}};
+  const std::vector<std::pair<std::string, std::string>> settings = {{"gravity", "[0, -1, 0]"},
+                                                                     {"time.substeps", "7"},
+                                                                     {"time.integrator", "bdf2"},
+                                                                     {"solver.tolerance", "1e-5"},
+                                                                     {"cloth.1.grid.cells", "[2, 3]"}};
   const std::vector<std::pair<std::string, std::string>> around = {
       {"", ""},
       {"# été\n[time]\nsubsteps = 4 # äß\n", ""},
@@ -79,13 +82,14 @@ TEST_CASE("settings go into a scene's text where they are or where they belong, 
     const std::string changed = with_settings(text, "scene.toml", settings);
     CHECK(test::contains(changed, "# few"));
     const assets::Scene scene = parsed(changed);
+    CHECK(scene.gravity.y() == -1);
     CHECK(scene.time.substeps == 7);
     CHECK(scene.time.integrator == "bdf2");
     CHECK(scene.solver.tolerance == 1e-5);
     CHECK(scene.cloth[0].grid->cells == std::array<int, 2>{2, 3});
     CHECK(assets::canonical_physics(scene) ==
-          assets::canonical_physics(parsed(text, {"time.substeps=7", "time.integrator=bdf2", "solver.tolerance=1e-5",
-                                                  "cloth.1.grid.cells=[2, 3]"})));
+          assets::canonical_physics(parsed(text, {"gravity=[0, -1, 0]", "time.substeps=7", "time.integrator=bdf2",
+                                                  "solver.tolerance=1e-5", "cloth.1.grid.cells=[2, 3]"})));
   }
 }
 

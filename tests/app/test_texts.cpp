@@ -20,7 +20,7 @@ TEST_CASE("--help has examples and the exit codes, every command has its own hel
   CHECK(all.code == 0);
   CHECK(test::contains(all.out, "Examples:"));
   CHECK(test::contains(all.out, "130 interrupted"));
-  for (const char* command : {"render", "simulate", "turntable", "compare", "check", "tetrahedralize"}) {
+  for (const char* command : {"render", "simulate", "turntable", "compare", "check", "study", "tetrahedralize"}) {
     INFO(command);
     CHECK(test::contains(all.out, command));
     const test::RunResult one = test::run({command, "--help"});
