@@ -34,7 +34,8 @@ void walk(KeyVisitor& v, Solver& s) {
         MethodRef{&s.preconditioner, sim::preconditioners()});
   v.key({"omega", kPhysics, "", kRelaxation, "relaxation of sor; 1 is gauss-seidel"}, &s.omega);
   v.key({"restart", kPhysics, "", between(1, 10000), "vectors that gmres keeps before it begins anew"}, &s.restart);
-  v.key({"linear_tolerance", kPhysics, "", kTolerance, "relative residual at which an iterative solver stops"},
+  v.key({"linear_tolerance", kPhysics, "", kTolerance,
+         "finest relative residual of one iterative solve; it stops earlier where a Newton iteration is worth less"},
         &s.linear_tolerance);
   v.key({"linear_max_iterations", kPhysics, "", between(0, 1000000000),
          "after which it gives up; 0: 10000, with cg 10 for every unknown"},

@@ -10,8 +10,8 @@ struct FourOf {
   typedef Scalar Type __attribute__((vector_size(4 * sizeof(Scalar))));
 };
 
-/// Block rows [first, first + count) of y = A x; `values`: 9 a block, column-major, and one more that can be read at the
-/// end of the last: a column is loaded with the entry after it, which goes nowhere.
+/// Block rows [first, first + count) of y = A x; `values`: 9 a block, column-major, and one more that can be read at
+/// the end of the last: a column is loaded with the entry after it, which goes nowhere.
 template <class Scalar>
 void multiply_block_rows(std::span<const int> row_start, std::span<const int> column, const Scalar* values, int first,
                          int count, const Scalar* x, Scalar* y) {

@@ -35,7 +35,8 @@ TEST_CASE("a guess meets motion whose acceleration changes evenly, with steps of
   CHECK_FALSE(guess.any());
 }
 
-TEST_CASE("a smooth swing takes fewer Newton iterations than a solve from the motion without forces, and ends the same") {
+TEST_CASE(
+    "a smooth swing takes fewer Newton iterations than a solve from the motion without forces, and ends the same") {
   const auto model = [] {
     ModelBuilder builder;
     const TetMesh mesh = block_of_tets(Vec3(1, 0.2, 0.2), 10, 2, 2);
