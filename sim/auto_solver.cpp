@@ -14,6 +14,7 @@ constexpr double kPerRow = 10;            // vector work of an iteration, per bl
 
 // Below this size a direct solve costs less than finding out.
 constexpr int kSmall = 600;
+constexpr double kWeightOfNew = 0.125;  // of a solve, in the mean number of iterations
 // The first time that iterations cost too much, so many solves are direct before they are tried again; every further
 // time in a row twice as many and these, up to the longest.
 constexpr long kFirstPause = 2, kLongestPause = 64;
@@ -31,62 +32,78 @@ double AutoSolver::cholesky_work() {
 
 void AutoSolver::analyse(const BlockMatrix& A) {
   A_ = &A;
-  direct_ = A.rows() <= kSmall;
-  if (direct_) cholesky_.analyse(A);
+  direct_ = false;
+  if (A.rows() <= kSmall) cholesky_.analyse(A);
 }
 
 void AutoSolver::factorize(const BlockMatrix& A) { A_ = &A; }
 
+/// Iterations that cost as much as a factorization.
+long AutoSolver::affordable() { return std::max(10L, static_cast<long>(cholesky_work() / iteration_work())); }
+
 LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
-  ++since_choice_;
-  const bool small = A_->rows() <= kSmall;
-  const bool test = !small && direct_ && since_choice_ > pause_;
-  long spent = 0;
-  if (!direct_ || test) {
-    // Iterations up to what the factorization would cost; its cost is counted once the iterations look expensive.
-    long limit = 60;
-    const auto affordable = [&] { return std::max(10L, static_cast<long>(cholesky_work() / iteration_work())); };
-    if (cholesky_.analysed()) limit = affordable();
-    cg_.factorize(*A_);
-    cg_.set_max_iterations(limit);
-    LinearReport report = cg_.solve(b, targets, x);
-    if (!report.ok && !cholesky_.analysed() && affordable() > 2 * limit) {
-      spent = report.iterations;
-      cg_.set_max_iterations(affordable());
-      report = cg_.solve(b, targets, x);
-    }
-    if (test) since_choice_ = 0;
-    if (report.ok) {
-      direct_ = false;
-      pause_ = 0;
-      report.iterations += spent;
-      return report;
-    }
-    spent += report.iterations;
-    direct_ = true;
-    since_choice_ = 0;
-    pause_ = std::min(2 * pause_ + kFirstPause, kLongestPause);
+  if (A_->rows() > kSmall && (!direct_ || ++direct_solves_ > pause_)) {
+    LinearReport report = iterate(b, targets, x);
+    // A direction without curvature is proof: a factorization would find no more than that.
+    if (report.ok || report.indefinite) return report;
+    LinearReport direct = factor(b, targets, x);
+    direct.iterations = report.iterations;
+    return direct;
   }
+  return factor(b, targets, x);
+}
+
+/// Iterations up to what the factorization would cost, which is found out once they look expensive.
+LinearReport AutoSolver::iterate(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
+  constexpr long kCheap = 60;
+  cg_.factorize(*A_);
+  cg_.set_max_iterations(cholesky_.analysed() ? affordable() : kCheap);
+  LinearReport report = cg_.solve(b, targets, x);
+  long spent = 0;
+  if (!report.ok && !report.indefinite && !cholesky_.analysed() && affordable() > kCheap) {
+    spent = report.iterations;
+    cg_.set_max_iterations(affordable());
+    report = cg_.solve(b, targets, x);
+  }
+  if (!report.indefinite) judge(report);
+  report.iterations += spent;
+  return report;
+}
+
+/// Direct solves from now on, if iterations have cost more on average.
+void AutoSolver::judge(const LinearReport& report) {
+  // One that was given up would have taken longer still.
+  const double iterations = static_cast<double>(report.iterations) * (report.ok ? 1 : 2);
+  const bool afresh = direct_ || mean_ == 0;
+  mean_ = afresh ? iterations : mean_ + kWeightOfNew * (iterations - mean_);
+  direct_ = !report.ok && mean_ > static_cast<double>(affordable());
+  direct_solves_ = 0;
+  if (direct_)
+    pause_ = std::min(2 * pause_ + kFirstPause, kLongestPause);
+  else
+    pause_ = 0;
+}
+
+LinearReport AutoSolver::factor(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
   if (!cholesky_.analysed()) cholesky_.analyse(*A_);
   cholesky_.factorize(*A_);
-  LinearReport report = cholesky_.solve(b, targets, x);
-  report.iterations = spent;
-  return report;
+  return cholesky_.solve(b, targets, x);
 }
 
 std::size_t AutoSolver::bytes() const { return cg_.bytes() + (cholesky_.analysed() ? cholesky_.bytes() : 0); }
 
 std::vector<double> AutoSolver::memory() const {
-  return {direct_ ? 1.0 : 0.0, static_cast<double>(since_choice_), static_cast<double>(pause_),
+  return {direct_ ? 1.0 : 0.0, static_cast<double>(direct_solves_), static_cast<double>(pause_), mean_,
           cholesky_.analysed() ? 1.0 : 0.0};
 }
 
 void AutoSolver::restore(std::span<const double> saved) {
-  if (saved.size() != 4) throw std::invalid_argument("memory of another linear solver");
+  if (saved.size() != 5) throw std::invalid_argument("memory of another linear solver");
   direct_ = saved[0] != 0;
-  since_choice_ = static_cast<long>(saved[1]);
+  direct_solves_ = static_cast<long>(saved[1]);
   pause_ = static_cast<long>(saved[2]);
-  if (saved[3] != 0 && !cholesky_.analysed()) cholesky_.analyse(*A_);
+  mean_ = saved[3];
+  if (saved[4] != 0 && !cholesky_.analysed()) cholesky_.analyse(*A_);
 }
 
 }  // namespace softreel::sim

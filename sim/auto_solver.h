@@ -18,13 +18,18 @@ class AutoSolver final : public LinearSolver {
  private:
   double cholesky_work();
   double iteration_work() const;
+  long affordable();
+  LinearReport iterate(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x);
+  LinearReport factor(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x);
+  void judge(const LinearReport& report);
 
   const BlockMatrix* A_ = nullptr;
   CholeskySolver cholesky_;
   ConjugateGradientSolver cg_;
-  bool direct_ = true;     // the current choice
-  long since_choice_ = 0;  // solves since it was last put to the test
-  long pause_ = 0;         // direct ones from there to the next test
+  bool direct_ = false;     // iterations are too expensive at present
+  long direct_solves_ = 0;  // since they were last tried
+  long pause_ = 0;          // direct ones until they are tried again
+  double mean_ = 0;         // iterations of a solve, the latest weighing most
 };
 
 }  // namespace softreel::sim
