@@ -82,6 +82,18 @@ double spectral_radius(std::string_view integrator, double h_omega, double dampi
   return largest;
 }
 
+double fixed_point_rate(std::string_view integrator, double h_omega, double damping_ratio) {
+  Integrator method = make_integrator(integrator);
+  if (!method.implicit_method) throw std::invalid_argument("explicit methods iterate nothing");
+  const Oscillator oscillator{h_omega, damping_ratio};
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1);
+  State s{0, zero, zero};
+  for (int i = 0; i < 2; ++i) oscillator.step(method, s);  // past what starts it
+  Stage stage;
+  method.implicit_method->predict(s, 1, {[](State& at, Eigen::VectorXd& a) { a = 0 * at.x; }, false}, stage);
+  return stage.beta * (h_omega * h_omega + 2 * damping_ratio * h_omega * stage.a) / stage.inertia;
+}
+
 double stability_limit(std::string_view integrator) {
   double lo = kSmall, hi = kLarge;
   if (spectral_radius(integrator, lo) > kNoGrowth) return 0;

@@ -19,4 +19,9 @@ double spectral_radius(std::string_view integrator, double h_omega, double dampi
 /// does.
 double stability_limit(std::string_view integrator);
 
+/// By how much a minimizer that divides by the mass alone (`fixed-point`) multiplies its error in this oscillator, per
+/// iteration: beta (omega^2 + 2 xi omega a)/inertia of the method's own stage. It converges below 1. Throws
+/// std::invalid_argument for methods that are not implicit, and for "static".
+double fixed_point_rate(std::string_view integrator, double h_omega, double damping_ratio = 0);
+
 }  // namespace softreel::sim
