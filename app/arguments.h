@@ -20,6 +20,7 @@ struct ClipArguments : CommonArguments {
   std::string video;                   ///< render only
   std::string stats;                   ///< JSON file
   std::string export_format;           ///< simulate only: ply, vtu, pc2
+  bool force = false;                  ///< simulate what is bound to fail, too
 };
 
 struct TurntableArguments : CommonArguments {

@@ -5,11 +5,13 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "app/forecast.h"
 #include "app/frame_range.h"
 #include "app/hashes.h"
 #include "app/interrupt.h"
 #include "app/output_check.h"
 #include "app/progress.h"
+#include "app/world.h"
 #include "assets/error.h"
 #include "assets/scene_reader.h"
 #include "sim/parallel.h"
@@ -34,7 +36,7 @@ ClipPlan plan_clip(const ClipArguments& a) {
   if (!a.stats.empty()) check_output_file(a.stats);
   promise_to_go_on();
   const std::string hash = simulation_hash(scene);
-  ClipPlan plan{std::move(scene), output, std::move(frames), ClipCache(output / "cache", hash), {}};
+  ClipPlan plan{std::move(scene), output, std::move(frames), ClipCache(output / "cache", hash), a.force, {}};
   plan.figures.scene = a.scene;
   plan.figures.simulation_hash = hash;
   plan.figures.bill = bill_of(plan.scene);
@@ -68,6 +70,7 @@ Shapes simulate_plan(ClipPlan& plan, int last, bool quiet) {
     f.triangles += static_cast<long>(c.rest.triangles.size());
   }
   if (plan.cache.complete_frames(last) < last) {
+    if (!plan.force && has_step_limit(plan.scene)) refuse_hopeless(plan.scene, build_model(plan.scene, shapes));
     f.simulated = true;
     f.clip = simulate_clip(plan.scene, shapes, plan.cache, last, quiet);
   } else {

@@ -17,13 +17,15 @@ struct ClipPlan {
   std::filesystem::path output;
   std::vector<int> frames;  ///< asked for
   ClipCache cache;
+  bool force = false;  ///< simulate a hopeless setting too
   RunFigures figures;
 };
 
 /// Reads and checks the scene, makes the output folder (what cannot be written is found at once), hashes.
 ClipPlan plan_clip(const ClipArguments& arguments);
 
-/// Loads the shapes and simulates up to `last`. Fills plan.figures.
+/// Loads the shapes and simulates up to `last`. Fills plan.figures. Throws UserError (kUsage) where an explicit
+/// method's step is hopeless, unless plan.force.
 Shapes simulate_plan(ClipPlan& plan, int last, bool quiet);
 
 /// Threads for the physics and, before the first picture, for llvmpipe.

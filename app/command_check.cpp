@@ -1,16 +1,31 @@
 // softreel check SCENE
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "app/arguments.h"
 #include "app/bill.h"
 #include "app/exit_code.h"
 #include "app/field_world.h"
+#include "app/forecast_text.h"
+#include "app/forecast_warnings.h"
 #include "app/method_list.h"
+#include "app/world.h"
 #include "assets/error.h"
 #include "assets/scene_reader.h"
 #include "assets/scene_reference.h"
 
 namespace softreel::app {
+namespace {
+
+/// Tetrahedra of an earlier run are not made again, but check leaves no files behind.
+std::filesystem::path cache_of_renders(const std::string& scene) {
+  std::filesystem::path cache = std::filesystem::path("out") / std::filesystem::path(scene).stem() / "cache";
+  std::error_code none;
+  return std::filesystem::is_directory(cache, none) ? cache : std::filesystem::path();
+}
+
+}  // namespace
 
 int run_check(const CheckArguments& a) {
   if (a.list) {
@@ -21,15 +36,21 @@ int run_check(const CheckArguments& a) {
     throw assets::UserError(assets::ErrorKind::kUsage, "check needs a scene file (or --list, for every key there is)");
   const assets::Scene scene = assets::read_scene(a.scene, a.overrides);
   assets::check_assets(scene);
-  if (!scene.fields.empty()) {  // what only their meshes show, the longest step above all
-    Shapes shapes;
-    load_fields(scene, shapes);
-    build_fields(scene, shapes);
-  }
+  // What only the meshes show: pins that hold nothing, steps that are too long.
+  const Shapes shapes = load_shapes(scene, cache_of_renders(a.scene));
+  build_fields(scene, shapes);
+  const sim::Model model = build_model(scene, shapes);
   fmt::print("{}: no mistakes. {} frames at {:g} fps, {} steps of {:.4g} s\n\n", a.scene, scene.time.frames(),
              scene.time.fps, (scene.time.frames() - 1) * scene.time.substeps, scene.time.step());
   for (const std::string& note : scene.notes)
     fmt::print("note: {}\n{}", note, &note == &scene.notes.back() ? "\n" : "");
+  for (const std::string& note : shapes.notes) fmt::print("note: {}\n", note);
+  std::optional<Forecast> forecast;
+  if (model.vertices() > 0 && scene.time.integrator != "static") forecast = make_forecast(scene, model);
+  if (forecast) fmt::print("{}\n", forecast_text(scene, model, *forecast));
+  const std::vector<std::string> warnings = warnings_of(scene, shapes, model, forecast ? &*forecast : nullptr);
+  for (const std::string& warning : warnings)
+    fmt::print("warning: {}\n{}", warning, &warning == &warnings.back() ? "\n" : "");
   const std::vector<BillItem> bill = bill_of(scene);
   for (const bool needed : {true, false}) {
     fmt::print("{}\n", needed ? "needed" : "left out");

@@ -39,6 +39,7 @@ void add_clip(CLI::App& command, ClipArguments& a) {
       ->take_all()
       ->allow_extra_args(false);
   command.add_option("--stats", a.stats, "write counts, seconds and energies to this JSON file");
+  command.add_flag("--force", a.force, "simulate even where the step is so long that it is bound to fail");
   add_common(command, a);
 }
 

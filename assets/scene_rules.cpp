@@ -125,6 +125,14 @@ void check_consistent_mass(KeyVisitor& v, const Scene& scene) {
   });
 }
 
+// No mistakes: a scene is often run with one method and then with another.
+void note_no_effect(KeyVisitor& v, const Scene& scene) {
+  const bool bodies = !scene.soft.empty() || !scene.cloth.empty() || !scene.springs.empty();
+  if (v.given("solver") && bodies && !sim::is_implicit(scene.time.integrator))
+    v.note("solver", fmt::format("has no effect: {} is explicit and solves nothing", scene.time.integrator));
+  if (v.given("contact") && scene.colliders.empty()) v.note("contact", "has no effect: there is no collider");
+}
+
 // All share the integrator of [time], and not every equation takes every one.
 void check_field_integrators(KeyVisitor& v, const Scene& scene) {
   for (size_t i = 0; i < scene.fields.size(); ++i) {
@@ -166,6 +174,7 @@ void check(KeyVisitor& v, Scene& scene) {
   check_static(v, scene);
   check_consistent_mass(v, scene);
   check_field_integrators(v, scene);
+  note_no_effect(v, scene);
 }
 
 void check(KeyVisitor& v, const Time& time) {

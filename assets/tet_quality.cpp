@@ -43,6 +43,12 @@ double dihedral(const sim::Vec3& i, const sim::Vec3& j, const sim::Vec3& k, cons
 
 }  // namespace
 
+double radius_ratio(const sim::TetMesh& mesh, const sim::Tet& tet) {
+  std::array<sim::Vec3, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.vertices[static_cast<std::size_t>(tet[k])];
+  return radius_ratio(p, sim::tet_volume(p[0], p[1], p[2], p[3]));
+}
+
 TetQuality tet_quality(const sim::TetMesh& mesh) {
   if (mesh.tets.empty()) throw std::logic_error("tet_quality of an empty mesh");
   constexpr int kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};

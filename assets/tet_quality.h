@@ -17,4 +17,7 @@ struct TetQuality {
 /// Radius ratio as in Shewchuk, "What is a good linear finite element?" (2002), section 6. `mesh` must not be empty.
 TetQuality tet_quality(const sim::TetMesh& mesh);
 
+/// Of one tetrahedron of `mesh`.
+double radius_ratio(const sim::TetMesh& mesh, const sim::Tet& tet);
+
 }  // namespace softreel::assets

@@ -107,7 +107,7 @@ TEST_CASE("A simulation that cannot hold ends with the frame, the reason and wha
   const auto scene = folder.write("scene.toml", test::hanging_cloth());
   const test::RunResult result =
       test::run({"render", scene.string(), "-o", (folder / "out").string(), "--set", "time.integrator=symplectic-euler",
-                 "--set", "cloth.sheet.springs.structural=1e9"});
+                 "--set", "cloth.sheet.springs.structural=1e9", "--force"});
   INFO(result.err);
   CHECK(result.code == 4);
   CHECK(test::contains(result.err, "frame"));
