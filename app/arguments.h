@@ -65,7 +65,11 @@ struct StudyArguments : CommonArguments {
   std::string apply;     ///< target, such as 1%; empty: no copy of the scene
   std::string apply_to;  ///< file; empty: NAME-studied.toml beside the scene
   bool overwrite = false;
-  std::string command;  ///< as it was typed
+  std::string command;     ///< as it was typed
+  bool stability = false;  ///< a map over two keys instead: which settings hold
+  std::string x, y;        ///< of the map: key=range
+  std::string cells = "20x20";
+  bool regions = false;  ///< the integrators' stability regions instead; no scene
 };
 
 // Each returns an exit code, or throws UserError, RenderError, Interrupted.

@@ -38,7 +38,9 @@ void ClipCache::write(int frame, const CachedFrame& data) const {
                     {"steps", data.figures.steps},
                     {"newton_iterations", data.figures.newton_iterations},
                     {"linear_iterations", data.figures.linear_iterations},
-                    {"retried_steps", data.figures.retried_steps}};
+                    {"retried_steps", data.figures.retried_steps},
+                    {"residual", data.figures.residual},
+                    {"inverted", data.figures.inverted}};
   for (std::size_t i = 0; i < data.fields.size(); ++i) {
     const std::string name = fmt::format("field/{}/", i + 1);
     record.arrays[name + "value"] = to_vector(data.fields[i].value);
@@ -65,6 +67,8 @@ std::optional<CachedFrame> ClipCache::read(int frame, int vertices) const {
     data.figures.newton_iterations = s.at("newton_iterations");
     data.figures.linear_iterations = s.at("linear_iterations");
     data.figures.retried_steps = s.at("retried_steps");
+    data.figures.residual = s.at("residual");
+    data.figures.inverted = s.at("inverted");
     const auto fields = s.find("fields");
     data.fields.resize(fields == s.end() ? 0 : static_cast<std::size_t>(fields->second));
     for (std::size_t i = 0; i < data.fields.size(); ++i) {

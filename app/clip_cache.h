@@ -14,6 +14,8 @@ namespace softreel::app {
 struct FrameFigures {
   sim::Energies energies;
   double steps = 0, newton_iterations = 0, linear_iterations = 0, retried_steps = 0;
+  double residual = 0;  ///< the worst of those steps (sim::StepReport)
+  double inverted = 0;  ///< tetrahedra that are inside out, in this frame
 };
 
 /// Of one field.

@@ -42,6 +42,7 @@ CachedFrame ClipWorld::frame(const sim::StepReport& sum) const {
   frame.figures.newton_iterations = static_cast<double>(sum.newton_iterations);
   frame.figures.linear_iterations = static_cast<double>(sum.linear_iterations);
   frame.figures.retried_steps = static_cast<double>(sum.retries);
+  frame.figures.residual = sum.residual;
   for (const sim::Field& field : fields_) frame.fields.push_back({field.value(), field.rate(), field.memory()});
   return frame;
 }

@@ -44,7 +44,7 @@ void add_clip(CLI::App& command, ClipArguments& a) {
 }
 
 void add_study(CLI::App& command, StudyArguments& a) {
-  command.add_option("scene", a.scene, "scene file (TOML)")->required();
+  command.add_option("scene", a.scene, "scene file (TOML)");
   command.add_option("-o,--output", a.output, "folder for report and cache (default: out/NAME-study)");
   const auto list = [&](const char* name, std::vector<std::string>& values, const char* help) {
     command.add_option(name, values, help)->delimiter(',')->allow_extra_args(false)->type_name("A,B,...");
@@ -70,6 +70,13 @@ void add_study(CLI::App& command, StudyArguments& a) {
       "--apply", a.apply, "write a copy of the scene with the fastest settings within this error: 1%, 1px, 1mm");
   command.add_option("--apply-to", a.apply_to, "file of that copy (default: NAME-studied.toml)")->needs(apply);
   command.add_flag("--overwrite", a.overwrite, "let --apply-to be the scene itself")->needs(apply);
+  CLI::Option* map = command.add_flag("--stability", a.stability, "instead: which settings hold, over two keys");
+  command.add_option("--x", a.x, "of the map: time.substeps=1..64 (in equal ratios), time.integrator=verlet,rk4")
+      ->needs(map)
+      ->type_name("KEY=RANGE");
+  command.add_option("--y", a.y, "of the map: soft.block.material.young=1e2..1e9")->needs(map)->type_name("KEY=RANGE");
+  command.add_option("--cells", a.cells, "of the map")->needs(map)->capture_default_str();
+  command.add_flag("--regions", a.regions, "instead: stability regions of all integrators; needs no scene");
   add_common(command, a);
 }
 

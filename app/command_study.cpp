@@ -12,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/output_check.h"
 #include "app/progress.h"
+#include "app/stability_map.h"
 #include "app/study_apply.h"
 #include "app/study_plot.h"
 #include "app/study_report.h"
@@ -150,7 +151,11 @@ std::filesystem::path write_study(const std::filesystem::path& output, StudyRepo
 int run_study(const StudyArguments& a) {
   const Clock::time_point start = Clock::now();
   use_threads(a.threads);
+  if (a.regions) return run_stability_regions(a);
+  if (a.scene.empty())
+    throw UserError(ErrorKind::kUsage, "study needs a scene file (or --regions, which draws the integrators alone)");
   const double budget = parse_budget(a.budget);
+  if (a.stability) return run_stability_map(a, budget);
   if (!a.apply.empty()) parse_target(a.apply);
   const std::filesystem::path target = a.apply.empty() ? std::filesystem::path() : apply_file(a);
   const SweepRequest request{a.scene,      a.overrides, a.integrators, a.substeps,

@@ -96,30 +96,41 @@ bool has_step_limit(const assets::Scene& scene) {
   return !sim::is_implicit(scene.time.integrator) || (fixed_point(scene) && scene.time.integrator != "static");
 }
 
-Forecast make_forecast(const assets::Scene& scene, const sim::Model& model) {
+namespace {
+
+Forecast forecast_with(sim::Linearization& linear, const assets::Scene& scene, const sim::Model& model) {
   Forecast f;
   f.limited = has_step_limit(scene);
   f.h = scene.time.step();
-  sim::Linearization linear(model, f.h);
   const std::vector<sim::Mode> free = linear.fastest(sim::Touch::kNone);
   f.apart = step_forecast(scene, model, free, f.h);
-  if (f.limited) {
-    if (linear.has_contact())
-      f.touching = step_forecast(scene, model, linear.fastest(sim::Touch::kAll), f.h);
-    f.verdict = verdict_of(scene, f);
-    if (free.size() > 1)
-      f.apart.largest_step =
-          settled_step(scene, model, linear, sim::Touch::kNone, f.h, f.apart.largest_step);
-    if (f.touching)
-      f.touching->largest_step =
-          settled_step(scene, model, linear, sim::Touch::kAll, f.h, f.touching->largest_step);
-    if (std::isfinite(f.largest_step())) f.substeps = substeps_for(scene, f.largest_step());
-  }
+  if (!f.limited) return f;
+  if (linear.has_contact()) f.touching = step_forecast(scene, model, linear.fastest(sim::Touch::kAll), f.h);
+  f.verdict = verdict_of(scene, f);
+  if (free.size() > 1)
+    f.apart.largest_step = settled_step(scene, model, linear, sim::Touch::kNone, f.h, f.apart.largest_step);
+  if (f.touching)
+    f.touching->largest_step = settled_step(scene, model, linear, sim::Touch::kAll, f.h, f.touching->largest_step);
+  if (std::isfinite(f.largest_step())) f.substeps = substeps_for(scene, f.largest_step());
+  return f;
+}
+
+}  // namespace
+
+Forecast forecast_step(const assets::Scene& scene, const sim::Model& model) {
+  sim::Linearization linear(model, scene.time.step());
+  return forecast_with(linear, scene, model);
+}
+
+Forecast make_forecast(const assets::Scene& scene, const sim::Model& model) {
+  sim::Linearization linear(model, scene.time.step());
+  Forecast f = forecast_with(linear, scene, model);
+  const double omega = linear.fastest(sim::Touch::kNone)[0].omega;
   if (model.bodies.size() > 1)
     for (const sim::BodyRange& body : model.bodies)
       f.omega_of_body.push_back(linear.fastest(sim::Touch::kNone, &body)[0].omega);
   sim::Linearization stretched(model, f.h, kStretch);
-  if (free[0].omega > 0) f.stretched = stretched.fastest(sim::Touch::kNone)[0].omega / free[0].omega;
+  if (omega > 0) f.stretched = stretched.fastest(sim::Touch::kNone)[0].omega / omega;
   return f;
 }
 
@@ -131,8 +142,7 @@ void refuse_hopeless(const assets::Scene& scene, const sim::Model& model) {
   f.apart = step_forecast(scene, model, sim::Linearization(model, f.h).fastest(sim::Touch::kNone), f.h);
   if (verdict_of(scene, f) != Verdict::kHopeless) return;
   throw assets::UserError(assets::ErrorKind::kUsage, scene.file.string(),
-                          verdict_sentence(scene, make_forecast(scene, model)) +
-                              ". --force simulates it all the same");
+                          verdict_sentence(scene, make_forecast(scene, model)) + ". --force simulates it all the same");
 }
 
 }  // namespace softreel::app

@@ -13,10 +13,10 @@
 namespace softreel::app {
 
 enum class Verdict {
-  kHolds,          ///< no motion more than doubles over the clip by the method's fault, in contact too
-  kHoldsApart,     ///< that, but only as long as nothing touches a collider
-  kUnstable,       ///< some motion grows
-  kHopeless,       ///< so fast that even rounding errors outgrow the scene before the clip ends
+  kHolds,       ///< no motion more than doubles over the clip by the method's fault, in contact too
+  kHoldsApart,  ///< that, but only as long as nothing touches a collider
+  kUnstable,    ///< some motion grows
+  kHopeless,    ///< so fast that even rounding errors outgrow the scene before the clip ends
 };
 
 /// How a step of the scene does, for bodies that touch nothing, or all of whose vertices touch (sim::Touch).
@@ -29,13 +29,13 @@ struct StepForecast {
 };
 
 struct Forecast {
-  bool limited = false;      ///< explicit, or `fixed-point`: there is a largest step
-  double h = 0;              ///< [s]
-  StepForecast apart;        ///< bodies that touch nothing
+  bool limited = false;                  ///< explicit, or `fixed-point`: there is a largest step
+  double h = 0;                          ///< [s]
+  StepForecast apart;                    ///< bodies that touch nothing
   std::optional<StepForecast> touching;  ///< where there are colliders
   Verdict verdict = Verdict::kHolds;
-  int substeps = 0;          ///< that hold, with kSpare to spare; 0: none that the scene file takes. If limited
-  double stretched = 1;      ///< omega where all is stretched by kStretch, over omega at the start
+  int substeps = 0;      ///< that hold, with kSpare to spare; 0: none that the scene file takes. If limited
+  double stretched = 1;  ///< omega where all is stretched by kStretch, over omega at the start
   std::vector<double> omega_of_body;  ///< as model.bodies, others held [rad/s]; for more than one body
 
   /// What holds whatever touches [s]; where no step does, what holds apart.
@@ -52,6 +52,9 @@ inline constexpr double kStretch = 1.2;
 /// Whether the scene's integrator and solver have a largest step at all. If not, there is nothing to fear and nothing
 /// to compute.
 bool has_step_limit(const assets::Scene& scene);
+
+/// Frequency, growth and limit of the step alone, without what `check` prints beside them. For a scene with a limit.
+Forecast forecast_step(const assets::Scene& scene, const sim::Model& model);
 
 /// Everything, for `check`. `model`: of build_model; its terms begin a step. Not for time.integrator = "static".
 Forecast make_forecast(const assets::Scene& scene, const sim::Model& model);

@@ -24,9 +24,8 @@ double driven_speed(const sim::Motion& motion, const std::vector<assets::MotionK
 }
 
 bool attached(const assets::Scene& scene, const std::string& place) {
-  return std::any_of(scene.attachments.begin(), scene.attachments.end(), [&](const assets::Attach& a) {
-    return a.bodies[0].place == place || a.bodies[1].place == place;
-  });
+  return std::any_of(scene.attachments.begin(), scene.attachments.end(),
+                     [&](const assets::Attach& a) { return a.bodies[0].place == place || a.bodies[1].place == place; });
 }
 
 /// Half the extent of a collider in its own frame [m]; of a plane none.
@@ -69,8 +68,7 @@ Reach reach_of(const assets::Scene& scene, const MovingBody& m, double lowest) {
     reach.box.min().array() -= size / 2;
     reach.box.max().array() += size / 2;
     for (const assets::Pin& pin : m.body->pins)
-      for (const assets::MotionKey& key : pin.motion)
-        reach.box.extend(own.translated(key.translate));
+      for (const assets::MotionKey& key : pin.motion) reach.box.extend(own.translated(key.translate));
     return reach;
   }
   const Box flown = own.translated(seconds * m.body->velocity);

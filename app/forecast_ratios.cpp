@@ -44,10 +44,10 @@ void warn_of_ratios(const assets::Scene& scene, const sim::Model& model, std::ve
     const sim::BodyRange& b = model.bodies[body_index(scene, attach.bodies[1])];
     const auto warn = [&](const char* what, const char* unit, double of_a, double of_b, const char* then) {
       if (!(of_a > 0) || !(of_b > 0) || std::max(of_a / of_b, of_b / of_a) < kMostRatio) return;
-      warnings.push_back(fmt::format("attachment '{}' ties '{}' ({:.2g} {} a vertex) to '{}' ({:.2g} {}): {} that differ "
-                                     "{:.1g}-fold {}",
-                                     attach.name, a.name, of_a, unit, b.name, of_b, unit, what,
-                                     std::max(of_a / of_b, of_b / of_a), then));
+      warnings.push_back(fmt::format(
+          "attachment '{}' ties '{}' ({:.2g} {} a vertex) to '{}' ({:.2g} {}): {} that differ "
+          "{:.1g}-fold {}",
+          attach.name, a.name, of_a, unit, b.name, of_b, unit, what, std::max(of_a / of_b, of_b / of_a), then));
     };
     warn("masses", "kg", median(slice(model.masses, a)), median(slice(model.masses, b)),
          "make the light one follow without weight and slow down every iterative solver; solver.linear = \"cholesky\" "

@@ -15,9 +15,8 @@ namespace {
 /// A step as people write it: 1/120 s.
 std::string step_text(const assets::Scene& scene) {
   const double per_second = scene.time.fps * scene.time.substeps;
-  return std::abs(per_second - std::round(per_second)) < 1e-9 * per_second
-             ? fmt::format("1/{:.0f} s", per_second)
-             : fmt::format("{:.3g} s", scene.time.step());
+  return std::abs(per_second - std::round(per_second)) < 1e-9 * per_second ? fmt::format("1/{:.0f} s", per_second)
+                                                                           : fmt::format("{:.3g} s", scene.time.step());
 }
 
 /// 41, 2, 1.73
@@ -46,8 +45,8 @@ void line(std::string& text, std::string_view what, const std::string& figures) 
 std::string where(const sim::Model& model, const sim::ModePlace& place) {
   // A micrometre is nothing to look for.
   const Eigen::Vector3d p = (model.x0.segment<3>(3 * place.vertex) * 1e6).array().round() * 1e-6;
-  return fmt::format("'{}' near ({:.3g}, {:.3g}, {:.3g})", model.bodies[static_cast<size_t>(place.body)].name, p.x() + 0.0,
-                     p.y() + 0.0, p.z() + 0.0);
+  return fmt::format("'{}' near ({:.3g}, {:.3g}, {:.3g})", model.bodies[static_cast<size_t>(place.body)].name,
+                     p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
 }
 
 std::string h_omega_text(const StepForecast& f, double h) {
@@ -91,8 +90,8 @@ void add_damping(std::string& text, const assets::Scene& scene) {
 std::string verdict_sentence(const assets::Scene& scene, const Forecast& f) {
   const bool apart = f.verdict == Verdict::kHoldsApart;
   const StepForecast& worst = apart ? *f.touching : f.apart;
-  const std::string limit =
-      worst.largest_step > 0 ? fmt::format("limit {}", figure(worst.largest_step * worst.omega)) : "no step holds there";
+  const std::string limit = worst.largest_step > 0 ? fmt::format("limit {}", figure(worst.largest_step * worst.omega))
+                                                   : "no step holds there";
   std::string text = fmt::format("{} at h = {} {}: h omega = {}, {}", method_name(scene), step_text(scene),
                                  fixed_point(scene) ? (apart ? "diverges where a body touches a collider" : "diverges")
                                  : apart            ? "may become unstable where a body touches a collider"
@@ -112,10 +111,9 @@ std::string forecast_text(const assets::Scene& scene, const sim::Model& model, c
     line(text, "verdict", fmt::format("holds: {} has no limit on the step", scene.time.integrator));
   else if (f.verdict == Verdict::kHolds)
     line(text, "verdict",
-         std::isfinite(f.largest_step())
-             ? fmt::format("holds: {} at h = {}, {:.2g} times of which would hold", method_name(scene),
-                           step_text(scene), f.largest_step() / f.h)
-             : fmt::format("holds: {} has no limit here", method_name(scene)));
+         std::isfinite(f.largest_step()) ? fmt::format("holds: {} at h = {}, {:.2g} times of which would hold",
+                                                       method_name(scene), step_text(scene), f.largest_step() / f.h)
+                                         : fmt::format("holds: {} has no limit here", method_name(scene)));
   else
     line(text, "verdict", verdict_sentence(scene, f));
   if (!(worst.omega > 0)) {
@@ -130,9 +128,9 @@ std::string forecast_text(const assets::Scene& scene, const sim::Model& model, c
   if (f.limited && std::isfinite(f.largest_step()))
     line(text, "largest step",
          fmt::format("{:.3g} s{}", f.largest_step(),
-                     f.substeps > 0 ? fmt::format("; time.substeps = {} leaves {:.0f} % to spare", f.substeps,
-                                                  100 * kSpare)
-                                    : ""));
+                     f.substeps > 0
+                         ? fmt::format("; time.substeps = {} leaves {:.0f} % to spare", f.substeps, 100 * kSpare)
+                         : ""));
   if (!f.omega_of_body.empty()) {
     std::vector<size_t> order(f.omega_of_body.size());
     std::iota(order.begin(), order.end(), size_t{0});
@@ -146,8 +144,9 @@ std::string forecast_text(const assets::Scene& scene, const sim::Model& model, c
       bodies += fmt::format(", {} more down to {:.3g}", order.size() - kMostNamed, f.omega_of_body[order.back()]);
     line(text, "by body [rad/s]", bodies);
   }
-  line(text, "based on", fmt::format("the bodies as they start; stretched by {:.0f} % they are {:.3g} times as fast",
-                                     100 * (kStretch - 1), f.stretched));
+  line(text, "based on",
+       fmt::format("the bodies as they start; stretched by {:.0f} % they are {:.3g} times as fast",
+                   100 * (kStretch - 1), f.stretched));
   add_damping(text, scene);
   return text;
 }

@@ -21,9 +21,10 @@ void warn_of_the_method(const assets::Scene& scene, const Forecast& f, std::vect
                     integrator, h_omega));
   const double longest = f.largest_step();
   if (f.limited && f.verdict == Verdict::kHolds && std::isfinite(longest) && f.stretched * f.h > longest)
-    warnings.push_back(fmt::format("the step holds at the start, but not where bodies are stretched by {:.0f} %: they "
-                                   "are {:.3g} times as fast then, and {:.3g} times the step is the limit",
-                                   100 * (kStretch - 1), f.stretched, longest / f.h));
+    warnings.push_back(
+        fmt::format("the step holds at the start, but not where bodies are stretched by {:.0f} %: they "
+                    "are {:.3g} times as fast then, and {:.3g} times the step is the limit",
+                    100 * (kStretch - 1), f.stretched, longest / f.h));
 }
 
 void warn_of_no_effect(const assets::Scene& scene, std::vector<std::string>& warnings) {

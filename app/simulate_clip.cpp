@@ -8,12 +8,15 @@
 #include "app/clip_world.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/run_watch.h"
 #include "assets/error.h"
 
 namespace softreel::app {
 namespace {
 
-[[noreturn]] void give_up(const assets::Scene& scene, int frame, const StepFailure& failure) {
+/// `last`: the last frame that held.
+[[noreturn]] void give_up(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& last, int frame,
+                          const StepFailure& failure) {
   const std::string what_to_do =
       scene.time.integrator == "static"
           ? "more time.substeps make the load grow in smaller parts; solver.max_iterations allows more of them"
@@ -23,10 +26,10 @@ namespace {
             "stability limit";
   throw assets::UserError(
       assets::ErrorKind::kSimulation, scene.file.string(),
-      fmt::format("the simulation failed on the way to frame {} (t = {:.4g} s): {}{}. Frames 1 to {} are kept; {}",
+      fmt::format("the simulation failed on the way to frame {} (t = {:.4g} s): {}{}. Frames 1 to {} are kept; {}{}",
                   frame, (frame - 1) / scene.time.fps, failure.why,
                   failure.halved ? fmt::format(", also with the step halved {} times", scene.time.max_halvings) : "",
-                  frame - 1, what_to_do));
+                  frame - 1, likely_cause(scene, shapes, last), what_to_do));
 }
 
 }  // namespace
@@ -37,12 +40,14 @@ ClipRun simulate_clip(const assets::Scene& scene, const Shapes& shapes, const Cl
   ClipWorld world(scene, shapes);
   run.vertices = world.vertices();
 
+  RunWatch watch(scene, shapes);
   int frame = 0;
-  std::optional<CachedFrame> from;
+  std::optional<CachedFrame> from;  // the last frame that held
   while (frame < last) {
     std::optional<CachedFrame> next = cache.read(frame + 1, run.vertices);
     if (!next || next->fields.size() != scene.fields.size()) break;
     from = std::move(next);
+    watch.look(*from);
     ++frame;
   }
   run.frames_from_cache = frame;
@@ -51,7 +56,9 @@ ClipRun simulate_clip(const assets::Scene& scene, const Shapes& shapes, const Cl
     say(quiet, fmt::format("frames 1 to {} are simulated already; going on from there", frame));
   }
   if (frame == 0) {
-    cache.write(1, world.frame({}));
+    from = world.frame({});
+    watch.look(*from);
+    cache.write(1, *from);
     frame = 1;
     run.frames_simulated = 1;
   }
@@ -61,9 +68,12 @@ ClipRun simulate_clip(const assets::Scene& scene, const Shapes& shapes, const Cl
       sim::StepReport sum;
       for (int step = 0; step < scene.time.substeps; ++step) {
         stop_if_interrupted();
-        if (const auto failure = world.step(scene.time.step(), sum)) give_up(scene, frame, *failure);
+        if (const auto failure = world.step(scene.time.step(), sum)) give_up(scene, shapes, *from, frame, *failure);
       }
-      cache.write(frame, world.frame(sum));
+      CachedFrame now = world.frame(sum);
+      if (const auto why = watch.look(now)) give_up(scene, shapes, *from, frame, {*why});
+      cache.write(frame, now);
+      from = std::move(now);
       ++run.frames_simulated;
       run.total.add(sum);
       progress.advance();

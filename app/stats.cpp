@@ -94,6 +94,16 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
     j["energy"]["contact"].push_back(f.energies.contact);
     j["energy"]["dissipated"].push_back(f.energies.dissipated);
   }
+  // What each frame took and how it came out, as the energies: by frame.
+  const auto per_frame = [&](const char* name, auto figure) {
+    j["per_frame"][name] = nlohmann::ordered_json::array();
+    for (const FrameFigures& f : run.per_frame) j["per_frame"][name].push_back(figure(f));
+  };
+  per_frame("steps", [](const FrameFigures& f) { return static_cast<long>(f.steps); });
+  per_frame("newton_iterations", [](const FrameFigures& f) { return static_cast<long>(f.newton_iterations); });
+  per_frame("retried_steps", [](const FrameFigures& f) { return static_cast<long>(f.retried_steps); });
+  per_frame("residual", [](const FrameFigures& f) { return f.residual; });
+  per_frame("inverted_tets", [](const FrameFigures& f) { return static_cast<long>(f.inverted); });
   // File names may hold any bytes; JSON only UTF-8.
   assets::write_file_atomically(file, j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }

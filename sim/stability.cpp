@@ -23,7 +23,7 @@ struct Oscillator {
 
   void step(Integrator& method, State& s) const {
     const Acceleration acceleration{
-        [this](State& at, Eigen::VectorXd& a) { a = -2 * xi * omega * at.v - omega * omega * at.x; }, xi > 0};
+        [this](State& at, Eigen::VectorXd& a) { a = -2 * xi * omega * at.v - omega * omega * at.x; }, xi != 0};
     if (method.explicit_method) return method.explicit_method->step(acceleration, 1, s);
     Stage stage;
     method.implicit_method->predict(s, 1, acceleration, stage);

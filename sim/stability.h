@@ -8,7 +8,8 @@ namespace softreel::sim {
 
 /// Eigenvalues of the one-step matrix of an integrator for x'' + 2 xi omega x' + omega^2 x = 0 (Hughes 2000, section
 /// 9.1.3). The matrix is found by letting the method take one step from each unit vector of what it keeps: x, v, and
-/// the vectors of earlier steps. `h_omega` = h omega >= 0, `damping_ratio` = xi >= 0. Throws std::invalid_argument for
+/// the vectors of earlier steps. `h_omega` = h omega >= 0, `damping_ratio` = xi, negative for one that
+/// grows by itself. Throws std::invalid_argument for
 /// an unknown name and for "static", which has no step.
 std::vector<std::complex<double>> amplification(std::string_view integrator, double h_omega, double damping_ratio = 0);
 
