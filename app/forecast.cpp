@@ -44,7 +44,7 @@ StepForecast step_forecast(const assets::Scene& scene, const sim::Model& model, 
     const double growth = growth_of(scene, {mode.omega, mode.damping_ratio}, h);
     const double limit = limit_of(scene, {mode.omega_bound, mode.damping_ratio});
     if (m == 0 || limit < worst.largest_step) {
-      worst.omega = mode.omega;
+      worst.omega = worst.omega_at_limit = mode.omega;
       worst.damping_ratio = mode.damping_ratio;
       worst.place = sim::place_of(model, mode);
     }
@@ -56,20 +56,22 @@ StepForecast step_forecast(const assets::Scene& scene, const sim::Model& model, 
 
 /// Penalties and the worst damped mode change with the step: the step that equals the limit which it sets itself. 0 if
 /// there is none: a penalty that stiffens as the step shrinks leaves some methods no step at all.
-double settled_step(const assets::Scene& scene, const sim::Model& model, sim::Linearization& linear, sim::Touch touch,
-                    double h, double limit) {
+void settle(const assets::Scene& scene, const sim::Model& model, sim::Linearization& linear, sim::Touch touch, double h,
+            StepForecast& f) {
   constexpr int kMostRounds = 24;
   constexpr double kClose = 5e-3, kVanishing = 1e-6;
-  double step = h;
+  double step = h, limit = f.largest_step;
   for (int round = 0; round < kMostRounds && std::isfinite(limit) && std::abs(limit / step - 1) > kClose; ++round) {
     if (limit < kVanishing * h) break;
     step = limit;
     linear.set_step(step);
-    limit = step_forecast(scene, model, linear.fastest(touch), step).largest_step;
+    const StepForecast next = step_forecast(scene, model, linear.fastest(touch), step);
+    limit = next.largest_step;
+    f.omega_at_limit = next.omega;
   }
   linear.set_step(h);
-  if (std::isinf(limit)) return limit;
-  return std::abs(limit / step - 1) > kClose ? 0 : std::min(step, limit);
+  if (std::isfinite(limit)) limit = std::abs(limit / step - 1) > kClose ? 0 : std::min(step, limit);
+  f.largest_step = limit;
 }
 
 Verdict verdict_of(const assets::Scene& scene, const Forecast& f) {
@@ -107,10 +109,8 @@ Forecast forecast_with(sim::Linearization& linear, const assets::Scene& scene, c
   if (!f.limited) return f;
   if (linear.has_contact()) f.touching = step_forecast(scene, model, linear.fastest(sim::Touch::kAll), f.h);
   f.verdict = verdict_of(scene, f);
-  if (free.size() > 1)
-    f.apart.largest_step = settled_step(scene, model, linear, sim::Touch::kNone, f.h, f.apart.largest_step);
-  if (f.touching)
-    f.touching->largest_step = settled_step(scene, model, linear, sim::Touch::kAll, f.h, f.touching->largest_step);
+  if (free.size() > 1) settle(scene, model, linear, sim::Touch::kNone, f.h, f.apart);
+  if (f.touching) settle(scene, model, linear, sim::Touch::kAll, f.h, *f.touching);
   if (std::isfinite(f.largest_step())) f.substeps = substeps_for(scene, f.largest_step());
   return f;
 }

@@ -21,11 +21,12 @@ enum class Verdict {
 
 /// How a step of the scene does, for bodies that touch nothing, or all of whose vertices touch (sim::Touch).
 struct StepForecast {
-  double omega = 0;          ///< of the mode that limits the step [rad/s]
-  double damping_ratio = 0;  ///< of that mode [-]
-  double log_growth = 0;     ///< ln of its growth over the clip; <= 0: none. Of `fixed-point`: per iteration
-  double largest_step = 0;   ///< [s]; infinity: no limit; 0: none holds, however short
-  sim::ModePlace place;      ///< where it moves most
+  double omega = 0;           ///< of the mode that limits the step [rad/s]
+  double damping_ratio = 0;   ///< of that mode [-]
+  double log_growth = 0;      ///< ln of its growth over the clip; <= 0: none. Of `fixed-point`: per iteration
+  double largest_step = 0;    ///< [s]; infinity: no limit; 0: none holds, however short
+  double omega_at_limit = 0;  ///< of the mode that limits that step: penalties change with it [rad/s]
+  sim::ModePlace place;       ///< where it moves most
 };
 
 struct Forecast {

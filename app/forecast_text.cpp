@@ -55,9 +55,9 @@ std::string h_omega_text(const StepForecast& f, double h) {
                        figure(h * f.omega));
   if (!std::isfinite(f.largest_step)) return fmt::format("{}, no limit", figure(h * f.omega));
   const double of_limit = h / f.largest_step;
-  return fmt::format("{}, limit {}: {}", figure(h * f.omega), figure(f.largest_step * f.omega),
-                     of_limit > 1 ? fmt::format("{} times too long", figure(of_limit))
-                                  : fmt::format("{:.0f} % of it", 100 * of_limit));
+  return fmt::format("{}, limit {}: {}", figure(h * f.omega), figure(f.largest_step * f.omega_at_limit),
+                     of_limit > 1 ? fmt::format("the step is {} times too long", figure(of_limit))
+                                  : fmt::format("{:.0f} % of the largest step", 100 * of_limit));
 }
 
 /// What a step of the method takes from a motion that nothing damps, per second.
@@ -90,8 +90,9 @@ void add_damping(std::string& text, const assets::Scene& scene) {
 std::string verdict_sentence(const assets::Scene& scene, const Forecast& f) {
   const bool apart = f.verdict == Verdict::kHoldsApart;
   const StepForecast& worst = apart ? *f.touching : f.apart;
-  const std::string limit = worst.largest_step > 0 ? fmt::format("limit {}", figure(worst.largest_step * worst.omega))
-                                                   : "no step holds there";
+  const std::string limit = worst.largest_step > 0
+                                ? fmt::format("limit {}", figure(worst.largest_step * worst.omega_at_limit))
+                                : "no step holds there";
   std::string text = fmt::format("{} at h = {} {}: h omega = {}, {}", method_name(scene), step_text(scene),
                                  fixed_point(scene) ? (apart ? "diverges where a body touches a collider" : "diverges")
                                  : apart            ? "may become unstable where a body touches a collider"

@@ -40,8 +40,8 @@ std::vector<int> inverted_tets(const Shapes& shapes, const Eigen::VectorXd& x) {
   Eigen::Index first = 0;  // soft bodies come first
   for (const SolidShape& shape : shapes.soft) {
     const auto at = [&](int v) -> Vec3 { return x.segment<3>(3 * (first + v)); };
-    inverted.push_back(static_cast<int>(
-        std::count_if(shape.rest.tets.begin(), shape.rest.tets.end(), [&](const sim::Tet& t) {
+    inverted.push_back(
+        static_cast<int>(std::count_if(shape.rest.tets.begin(), shape.rest.tets.end(), [&](const sim::Tet& t) {
           return !(sim::tet_volume(at(t[0]), at(t[1]), at(t[2]), at(t[3])) > 0);
         })));
     first += static_cast<Eigen::Index>(shape.rest.vertices.size());

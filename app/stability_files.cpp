@@ -75,13 +75,14 @@ int run_stability_map(const StudyArguments& a, double seconds) {
                             "--stability needs --x and --y, such as --x time.substeps=1..64 --y "
                             "time.integrator=verlet,rk4");
   const MapRequest request{a.scene, a.overrides, parse_axis("--x", a.x, across), parse_axis("--y", a.y, up), seconds};
-  const fs::path output = a.output.empty() ? fs::path("out") / (fs::path(a.scene).stem().string() + "-stability")
-                                           : fs::path(a.output);
+  const fs::path output =
+      a.output.empty() ? fs::path("out") / (fs::path(a.scene).stem().string() + "-stability") : fs::path(a.output);
   check_output_folder(output);
   SharedShapes shapes(output / "cache");
   StabilityMap map;
   {
-    Progress progress("stability", static_cast<int>(request.x.values.size() * request.y.values.size()), a.quiet, "cells");
+    Progress progress("stability", static_cast<int>(request.x.values.size() * request.y.values.size()), a.quiet,
+                      "cells");
     map = measure_map(request, shapes, [&] { progress.advance(); });
   }
   const MapScore score = score_of(map);
@@ -90,8 +91,8 @@ int run_stability_map(const StudyArguments& a, double seconds) {
   const bool drawn = draw_plot(stability_plot(a.scene, map), output);
   for (const Outcome outcome : {Outcome::kHeld, Outcome::kDampedAway, Outcome::kDrifted, Outcome::kBlewUp,
                                 Outcome::kNotConverged, Outcome::kRefused, Outcome::kNotRun}) {
-    const auto n = std::count_if(map.cells.begin(), map.cells.end(),
-                                 [&](const MapCell& cell) { return cell.outcome == outcome; });
+    const auto n =
+        std::count_if(map.cells.begin(), map.cells.end(), [&](const MapCell& cell) { return cell.outcome == outcome; });
     if (n > 0) fmt::print("{:<18}{} cells\n", outcome_name(outcome), n);
   }
   if (score.judged > 0)

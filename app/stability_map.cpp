@@ -57,7 +57,7 @@ MapCell measure_cell(const assets::Scene& scene, const Shapes& shapes, double se
   options.seconds = seconds;
   const Trial trial = run_trial(scene, shapes, options);
   cell.outcome = outcome_of(scene, trial);
-  cell.energy_change = energy_change(trial);
+  if (!trial.failure) cell.energy_change = energy_change(trial);
   if (trial.failure) cell.why = trial.failure->why;
   return cell;
 }

@@ -24,9 +24,9 @@ MapAxis parse_axis(const std::string& option, const std::string& text, int cells
 
 struct MapCell {
   Outcome outcome = Outcome::kNotRun;
-  double energy_change = 0;     ///< of energy_change()
-  double step_over_limit = 0;   ///< what was forecast: h over the largest step that holds; 0: there is no limit
-  std::string why;              ///< of failures
+  double energy_change = 0;    ///< of energy_change()
+  double step_over_limit = 0;  ///< what was forecast: h over the largest step that holds; 0: there is no limit
+  std::string why;             ///< of failures
   bool forecast_holds() const { return step_over_limit <= 1; }
   bool held() const { return outcome != Outcome::kBlewUp && outcome != Outcome::kNotConverged; }
 };

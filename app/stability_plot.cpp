@@ -85,8 +85,8 @@ std::string limit_points(const StabilityMap& map, const Scale& x, const Scale& y
       const double a = map.at(c, r).step_over_limit, b = map.at(c, r + 1).step_over_limit;
       if (!(a > 0) || !(b > 0) || (a <= 1) == (b <= 1)) continue;
       const double u = std::log(a) / (std::log(a) - std::log(b));
-      const double at = y.logarithmic ? y.at[r] * std::pow(y.at[r + 1] / y.at[r], u)
-                                      : y.at[r] + u * (y.at[r + 1] - y.at[r]);
+      const double at =
+          y.logarithmic ? y.at[r] * std::pow(y.at[r + 1] / y.at[r], u) : y.at[r] + u * (y.at[r + 1] - y.at[r]);
       points += fmt::format("{:.8g} {:.8g}\n", x.at[c], at);
     }
   return points;
@@ -110,15 +110,16 @@ StudyPlot stability_plot(const std::string& title, const StabilityMap& map) {
           script += fmt::format("{:.8g} {:.8g} {:.8g} {:.8g} {:.8g} {:.8g}\n", x.at[c], y.at[r], x.lo[c], x.hi[c],
                                 y.lo[r], y.hi[r]);
     script += "EOD\n";
-    plots += fmt::format("{}$cells{} using 1:2:3:4:5:6 with boxxyerror lc rgb \"{}\" title \"{}\"",
-                         plots.empty() ? "" : ", ", static_cast<int>(outcome), color_of(outcome),
-                         outcome_name(outcome));
+    plots +=
+        fmt::format("{}$cells{} using 1:2:3:4:5:6 with boxxyerror lc rgb \"{}\" title \"{}\"",
+                    plots.empty() ? "" : ", ", static_cast<int>(outcome), color_of(outcome), outcome_name(outcome));
   }
   const std::string limit = map.x.numeric && map.y.numeric ? limit_points(map, x, y) : "";
   if (!limit.empty()) {
     script += "$limit << EOD\n" + limit + "EOD\n";
-    plots += ", $limit using 1:2 with lines lc rgb \"#ffffff\" lw 5 notitle, $limit using 1:2 with lines lc rgb "
-             "\"#000000\" lw 2 title \"forecast limit\"";
+    plots +=
+        ", $limit using 1:2 with lines lc rgb \"#ffffff\" lw 5 notitle, $limit using 1:2 with lines lc rgb "
+        "\"#000000\" lw 2 title \"forecast limit\"";
   }
   return {"stability", script + "plot " + plots + "\n"};
 }

@@ -10,8 +10,8 @@
 namespace softreel::app {
 namespace {
 
-// The part of the plane that shows every region's bounds: forward Euler's ends at -2, rk4's at +-2.83 i, and bdf2 leaves
-// out a part of the right half that reaches to 4.
+// The part of the plane that shows every region's bounds: forward Euler's ends at -2, rk4's at +-2.83 i, and bdf2
+// leaves out a part of the right half that reaches to 4.
 constexpr double kLeft = -3.5, kRight = 4.5, kTop = 3.5;
 constexpr int kAcross = 121, kUp = 55;
 
@@ -43,7 +43,7 @@ StudyPlot regions_plot() {
   constexpr int kColumns = 4;
   const int rows = (static_cast<int>(methods.size()) + kColumns - 1) / kColumns;
   std::string script = fmt::format(
-      "set encoding utf8\nset multiplot layout {},{} margins 0.05,0.98,0.06,0.94 spacing 0.035,0.09\n"
+      "set encoding utf8\nset multiplot layout {},{} margins 0.04,0.99,0.06,0.94 spacing 0.035,0.13\n"
       "set border lc rgb \"#999999\"\nset tics nomirror out scale 0.4 font \",9\" textcolor rgb \"#333333\"\n"
       "set palette defined (-1 \"#56b4e9\", 0 \"#56b4e9\", 0 \"#ffffff\", 1 \"#ffffff\")\nset cbrange [-1:1]\n"
       "unset colorbox\nunset key\nset size ratio -1\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
@@ -54,9 +54,8 @@ StudyPlot regions_plot() {
     script += fmt::format("set title \"{}\" noenhanced font \",11\"\n$m{} << EOD\n{}EOD\n", methods[k].name, k,
                           matrix_of(methods[k].name));
     // On the bound of a region that is the whole left half rounding decides: what is not above 1e-6 counts as inside.
-    script += fmt::format(
-        "plot $m{} matrix using ({} + {}*$1):({} + {}*$2):($3 > 1e-6 ? 1 : -1) with image\n", k, kLeft,
-        (kRight - kLeft) / (kAcross - 1), -kTop, kTop / kUp);
+    script += fmt::format("plot $m{} matrix using ({} + {}*$1):({} + {}*$2):($3 > 1e-6 ? 1 : -1) with image\n", k,
+                          kLeft, (kRight - kLeft) / (kAcross - 1), -kTop, kTop / kUp);
   }
   return {"regions", script + "unset multiplot\n"};
 }
