@@ -112,9 +112,10 @@ std::string forecast_text(const assets::Scene& scene, const sim::Model& model, c
     line(text, "verdict", fmt::format("holds: {} has no limit on the step", scene.time.integrator));
   else if (f.verdict == Verdict::kHolds)
     line(text, "verdict",
-         std::isfinite(f.largest_step()) ? fmt::format("holds: {} at h = {}, {:.2g} times of which would hold",
-                                                       method_name(scene), step_text(scene), f.largest_step() / f.h)
-                                         : fmt::format("holds: {} has no limit here", method_name(scene)));
+         std::isfinite(f.largest_step())
+             ? fmt::format("holds: {} at h = {}; steps {:.2g} times as long would hold, too", method_name(scene),
+                           step_text(scene), f.largest_step() / f.h)
+             : fmt::format("holds: {} has no limit here", method_name(scene)));
   else
     line(text, "verdict", verdict_sentence(scene, f));
   if (!(worst.omega > 0)) {
@@ -132,6 +133,11 @@ std::string forecast_text(const assets::Scene& scene, const sim::Model& model, c
                      f.substeps > 0
                          ? fmt::format("; time.substeps = {} leaves {:.0f} % to spare", f.substeps, 100 * kSpare)
                          : ""));
+  // With so much to spare nothing is missing; else what a stretch would take.
+  if (f.substeps > 0 && f.stretched * (1 - kSpare) > 1)
+    line(text, "",
+         fmt::format("time.substeps = {:.0f} would hold with all stretched by {:.0f} %",
+                     std::ceil(f.substeps * (1 - kSpare) * f.stretched), 100 * (kStretch - 1)));
   if (!f.omega_of_body.empty()) {
     std::vector<size_t> order(f.omega_of_body.size());
     std::iota(order.begin(), order.end(), size_t{0});

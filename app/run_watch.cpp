@@ -69,9 +69,10 @@ std::optional<std::string> RunWatch::look(CachedFrame& frame) {
   return fmt::format("{:.3g} J came from nowhere, {:.2g} times all that was in motion before", gained, gained / before);
 }
 
-std::string likely_cause(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& last) {
-  if (!has_bodies(scene) || last.state.x.size() == 0) return "";
-  std::string text;
+Cause likely_cause(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& last) {
+  if (!has_bodies(scene) || last.state.x.size() == 0) return {};
+  Cause cause;
+  std::string& text = cause.text;
   sim::Model model = build_model(scene, shapes);
   const Eigen::Index n = model.masses.size();
   Eigen::Index fastest = 0;
@@ -83,13 +84,16 @@ std::string likely_cause(const assets::Scene& scene, const Shapes& shapes, const
       text += fmt::format("'{}' moved fastest before, {:.3g} m/s near ({:.3g}, {:.3g}, {:.3g}); ", body.name,
                           last.state.v.segment<3>(3 * fastest).norm(), p.x(), p.y(), p.z());
   text += names_of_inverted(scene, shapes, last.state.x);
-  if (!has_step_limit(scene)) return text;
+  if (!has_step_limit(scene)) return cause;
   // As deformed as the bodies were: faster than at the start, most often.
   model.x0 = last.state.x;
   model.v0 = last.state.v;
   const Forecast f = forecast_step(scene, model);
-  if (f.verdict != Verdict::kHolds) text += "as it stood then " + verdict_sentence(scene, f) + "; ";
-  return text;
+  const bool touching = last.figures.energies.contact > 0;
+  if (f.verdict == Verdict::kHolds || (f.verdict == Verdict::kHoldsApart && !touching)) return cause;
+  text += "as it stood then, " + verdict_sentence(scene, f);
+  cause.advises = true;
+  return cause;
 }
 
 }  // namespace softreel::app

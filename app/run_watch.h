@@ -31,8 +31,12 @@ class RunWatch {
   double in_motion_ = 0;         // the most of kinetic, elastic and contact energy in any frame before [J]
 };
 
-/// Where a run that failed was at its worst, what most likely made it fail and which settings help: sentences for the
-/// user. `last`: the last frame that held.
-std::string likely_cause(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& last);
+struct Cause {
+  std::string text;      ///< sentences for the user, each ended by "; "
+  bool advises = false;  ///< they name a setting that helps
+};
+
+/// Where a run that failed was at its worst, and what most likely made it fail. `last`: the last frame that held.
+Cause likely_cause(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& last);
 
 }  // namespace softreel::app

@@ -22,14 +22,17 @@ namespace {
           ? "more time.substeps make the load grow in smaller parts; solver.max_iterations allows more of them"
       : failure.halved
           ? "more time.substeps, softer materials or slower motions help; time.max_halvings allows more halving"
-          : "raise time.substeps, soften the materials, or take time.integrator = \"implicit-euler\", which has no "
-            "stability limit";
+          : fmt::format(
+                "raise time.substeps (to {}, say), soften the materials, or take time.integrator = "
+                "\"implicit-euler\", which has no stability limit",
+                scene.time.substeps + scene.time.substeps / 2 + 1);
+  const Cause cause = likely_cause(scene, shapes, last);
   throw assets::UserError(
       assets::ErrorKind::kSimulation, scene.file.string(),
       fmt::format("the simulation failed on the way to frame {} (t = {:.4g} s): {}{}. Frames 1 to {} are kept; {}{}",
                   frame, (frame - 1) / scene.time.fps, failure.why,
                   failure.halved ? fmt::format(", also with the step halved {} times", scene.time.max_halvings) : "",
-                  frame - 1, likely_cause(scene, shapes, last), what_to_do));
+                  frame - 1, cause.text, cause.advises ? "" : what_to_do));
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ spin = [0, 20, 10]
 
 }  // namespace
 
-TEST_CASE("A run that blows up slowly ends with the energy, the body, the cause and the setting, and keeps its frames") {
+TEST_CASE(
+    "A run that blows up slowly ends with the energy, the body, the cause and the setting, and keeps its frames") {
   test::TempFolder folder;
   const std::string scene = folder.write("scene.toml", kSlowlyUnstable).string();
   const auto simulate = [&](std::vector<std::string> more) {
@@ -34,7 +35,8 @@ TEST_CASE("A run that blows up slowly ends with the energy, the body, the cause 
     arguments.insert(arguments.end(), more.begin(), more.end());
     return test::run(arguments);
   };
-  const test::RunResult result = simulate({"--force", "--set", "time.substeps=1", "--set", "soft.die.material.young=1e6"});
+  const test::RunResult result =
+      simulate({"--force", "--set", "time.substeps=1", "--set", "soft.die.material.young=1e6"});
   INFO(result.err);
   CHECK(result.code == 4);
   CHECK(std::regex_search(result.err, std::regex("(came from nowhere|ran away)")));
@@ -83,9 +85,8 @@ TEST_CASE("Tetrahedra that are inside out are counted, body by body and in the s
   CHECK(app::inverted_tets(shapes, x) == std::vector<int>{0});
   for (Eigen::Index i = 0; i < x.size(); i += 3) x(i) = -x(i);
   CHECK(app::inverted_tets(shapes, x) == std::vector<int>{static_cast<int>(rest.tets.size())});
-  const auto stats = test::stats_of({"simulate", file, "-o", (folder / "out").string(), "--set", "time.substeps=8",
-                                     "--frames", "1-4"},
-                                    folder);
+  const auto stats = test::stats_of(
+      {"simulate", file, "-o", (folder / "out").string(), "--set", "time.substeps=8", "--frames", "1-4"}, folder);
   for (const char* figure : {"steps", "newton_iterations", "retried_steps", "residual", "inverted_tets"})
     CHECK(stats.at("per_frame").at(figure).size() == 4);
   CHECK(stats.at("per_frame").at("steps").at(1) == 8);
