@@ -31,12 +31,22 @@ enum class LightKind { kArea, kSun };
 enum class GroundMode { kAuto, kOn, kOff };
 enum class ColorMap { kViridis, kInferno, kMagma, kCoolwarm };
 
+/// How far a clip may be from the exact motion in time of its meshes: the largest over the frames of the RMS over the
+/// vertices.
+struct Accuracy {
+  double value = 1;         ///< > 0
+  std::string unit = "mm";  ///< of length ("m", "mm", ...); "px", as the camera sees the scene; or "%" of its size
+
+  double metres() const;  ///< [m]; 0 where the unit is none of length
+};
+
 struct Time {
   double fps = 30;                            ///< frames per second of the clip [1/s]
   double duration = 3;                        ///< [s]; frame 1 is t = 0
   int substeps = 4;                           ///< simulation steps per frame
   int max_halvings = 6;                       ///< how often a step that does not converge is retried with half the size
   std::string integrator = "implicit-euler";  ///< of sim::integrators()
+  std::optional<Accuracy> accuracy;           ///< steps are chosen for it; substeps is then the least number of them
 
   int frames() const;                                   ///< round(duration x fps), at least 1
   double step() const { return 1 / (fps * substeps); }  ///< [s]

@@ -12,10 +12,20 @@ using enum Role;
 void walk(KeyVisitor& v, Time& t) {
   v.key({"fps", kPhysics, "1/s", kFps, "frames per second of the clip"}, &t.fps);
   v.key({"duration", kNeither, "s", kDuration, "length of the clip; frame 1 shows t = 0"}, &t.duration);
-  v.key({"substeps", kPhysics, "", kSubsteps, "simulation steps per frame"}, &t.substeps);
+  v.key({"substeps", kPhysics, "", kSubsteps, "simulation steps per frame; with accuracy the least number of them"},
+        &t.substeps);
+  v.key({"accuracy",
+         kPhysics,
+         "",
+         {},
+         "takes the steps that this error in time needs (largest RMS over the vertices of any frame; promised where "
+         "nothing collides); px as the camera sees the middle of the scene, of its start if the camera is placed by "
+         "itself; % of the scene's diagonal, or of a field's range"},
+        &t.accuracy);
   v.key({"integrator", kPhysics, "", {}, "method of time integration"}, MethodRef{&t.integrator, sim::integrators()});
   v.key({"max_halvings", kPhysics, "", between(0, 30), "how often a step that fails is retried with half its size"},
         &t.max_halvings);
+  if (v.reading() && t.accuracy && !v.given("substeps")) t.substeps = 1;
   if (v.reading()) check(v, t);
 }
 

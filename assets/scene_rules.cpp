@@ -168,10 +168,23 @@ void check(KeyVisitor& v, const Solver& s) {
            "is for a linear solver that iterates; auto counts for itself what pays");
 }
 
+// What accuracy asks for has to mean something.
+void check_accuracy(KeyVisitor& v, const Scene& scene) {
+  if (!scene.time.accuracy) return;
+  if (scene.time.integrator == "static")
+    v.problem("time.accuracy", "is an error in time, and time.integrator = \"static\" knows none; leave it out");
+  if (!scene.fields.empty() && scene.time.accuracy->unit != "%")
+    v.problem(
+        "time.accuracy",
+        fmt::format("is {} {}, and the values of a field are no lengths; with [[field]] take \"%\", of their range",
+                    scene.time.accuracy->value, scene.time.accuracy->unit));
+}
+
 void check(KeyVisitor& v, Scene& scene) {
   check_names(v, scene);
   check_references(v, scene);
   check_static(v, scene);
+  check_accuracy(v, scene);
   check_consistent_mass(v, scene);
   check_field_integrators(v, scene);
   note_no_effect(v, scene);

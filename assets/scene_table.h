@@ -84,9 +84,9 @@ struct FormulaRef {
 using ValueRef = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, Vec3*, std::optional<Vec3>*,
                               std::array<double, 2>*, std::optional<std::array<double, 2>>*, std::array<int, 2>*,
                               std::array<int, 3>*, std::vector<int>*, std::vector<double>*, std::vector<Vec3>*,
-                              std::vector<std::array<int, 2>>*, BodyName*, std::array<BodyName, 2>*, Color*,
-                              std::optional<Color>*, std::optional<Box>*, ChoiceRef, FileRef, NameRef, PresetRef,
-                              MethodRef, ScaleRef, AxesRef, UnitRef, FormulaRef>;
+                              std::vector<std::array<int, 2>>*, BodyName*, std::array<BodyName, 2>*,
+                              std::optional<Accuracy>*, Color*, std::optional<Color>*, std::optional<Box>*, ChoiceRef,
+                              FileRef, NameRef, PresetRef, MethodRef, ScaleRef, AxesRef, UnitRef, FormulaRef>;
 
 /// A table of keys inside another.
 struct Section {

@@ -12,6 +12,8 @@ namespace softreel::assets {
 /// Units that a `unit` key knows by name [m].
 double metres_per(std::string_view unit_name);  ///< 0 for an unknown name
 std::vector<std::string> unit_names();
+/// Units of an Accuracy: those, "px" and "%".
+std::vector<std::string> accuracy_units();
 
 /// What a MethodRef chooses from.
 std::vector<std::string> method_names(const MethodRef& value);

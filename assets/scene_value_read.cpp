@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -122,6 +123,21 @@ class ValueReader {
     T value{};
     if (!read(node, &value)) return false;
     *out = value;
+    return true;
+  }
+
+  bool read(const Node& node, Accuracy* out) {
+    if (node.is_number()) return fail(node, fmt::format("say what it is measured in, \"{} mm\"", node.found()));
+    if (node.kind != Node::Kind::kString) return fail(node);
+    Accuracy read;
+    const char* end = node.text.data() + node.text.size();
+    const auto [rest, error] = std::from_chars(node.text.data(), end, read.value);
+    if (error != std::errc() || !std::isfinite(read.value) || !(read.value > 0)) return fail(node);
+    read.unit = std::string(rest, end);
+    read.unit.erase(0, read.unit.find_first_not_of(' '));
+    const std::vector<std::string> units = accuracy_units();
+    if (std::find(units.begin(), units.end(), read.unit) == units.end()) return fail(node, meant(read.unit, units));
+    *out = read;
     return true;
   }
 

@@ -96,6 +96,12 @@ std::vector<std::string> unit_names() {
   return names;
 }
 
+std::vector<std::string> accuracy_units() {
+  std::vector<std::string> names = unit_names();
+  names.insert(names.end(), {"px", "%"});
+  return names;
+}
+
 std::vector<std::string> method_names(const MethodRef& value) {
   std::vector<std::string> names;
   for (const sim::MethodInfo& info : value.methods) names.emplace_back(info.name);
@@ -125,6 +131,10 @@ std::string expected_text(const Key& key, const ValueRef& value, const std::stri
           [&](std::vector<std::array<int, 2>>*) { return "pairs of whole numbers [[i, j], ...]" + each; },
           [](BodyName*) { return std::string("the name of a body, in quotes"); },
           [](std::array<BodyName, 2>*) { return std::string("the names of two bodies, [\"a\", \"b\"]"); },
+          [](std::optional<Accuracy>*) {
+            return "a number above 0 and a unit in quotes, such as \"1 mm\", \"0.5 px\" or \"0.1 %\"; units are " +
+                   join_names(accuracy_units(), true);
+          },
           [](Color*) { return std::string("a colour: \"#rrggbb\", [r, g, b] from 0 to 1, or a name"); },
           [](std::optional<Color>*) { return std::string("a colour: \"#rrggbb\", [r, g, b] from 0 to 1, or a name"); },
           [&](std::optional<Box>*) { return "two corners [[x, y, z], [x, y, z]]" + unit + ", the lower one first"; },
@@ -172,6 +182,9 @@ std::string value_text(const ValueRef& value) {
                         [](std::array<BodyName, 2>* v) {
                           if ((*v)[0].name.empty()) return std::string();
                           return fmt::format("[{}, {}]", toml_string((*v)[0].name), toml_string((*v)[1].name));
+                        },
+                        [](std::optional<Accuracy>* v) {
+                          return *v ? fmt::format("\"{} {}\"", (*v)->value, (*v)->unit) : std::string();
                         },
                         [](Color* v) { return array_text(*v); },
                         [](std::optional<Color>* v) { return optional_text(*v); },

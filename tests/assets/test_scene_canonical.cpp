@@ -39,6 +39,9 @@ void change(const ValueRef& value) {
                  },
                  [](BodyName* v) { v->place += "x"; },
                  [](std::array<BodyName, 2>* v) { (*v)[1].place += "x"; },
+                 [](std::optional<Accuracy>* v) {
+                   *v = Accuracy{0.5, "mm"};
+                 },
                  [](Color* v) { v->b += 0.01; },
                  [](std::optional<Color>* v) {
                    *v = Color{0.1, 0.2, 0.3};
