@@ -76,6 +76,8 @@ std::vector<BillItem> bill_of(const Scene& s) {
   add("scalar fields", !s.fields.empty(), number(s.fields.size(), "field", "fields"), "there is no field");
   add("colour bars", count(s.fields, [](const Field& f) { return f.colorbar; }) > 0, "a field shows its scale",
       s.fields.empty() ? "there is no field" : "colorbar is false");
+  add("estimate of the error in time", s.time.accuracy.has_value(),
+      "time.accuracy is given: coarser runs, to compare with", "no time.accuracy is given");
   add("shadow maps", count(s.lights, [](const Light& l) { return l.shadow; }) > 0, "a light casts shadows",
       "no light casts shadows");
   add("accumulation buffer", s.render.samples > 1, fmt::format("samples = {}", s.render.samples), "samples = 1");

@@ -19,6 +19,15 @@ Eigen::VectorXd to_eigen(const std::vector<double>& v) {
 ClipCache::ClipCache(std::filesystem::path folder, std::string simulation_hash)
     : folder_(std::move(folder) / ("sim_" + simulation_hash)), hash_(std::move(simulation_hash)) {}
 
+ClipCache ClipCache::beside(const std::string& name) const {
+  return ClipCache(folder_.parent_path(), hash_ + "_" + name);
+}
+
+void ClipCache::remove() const {
+  std::error_code ignored;  // what cannot be removed is only in the way
+  std::filesystem::remove_all(folder_, ignored);
+}
+
 std::filesystem::path ClipCache::file(int frame) const { return folder_ / frame_file_name(frame, "state"); }
 std::string ClipCache::hash_of(int frame) const { return fmt::format("{}/{}", hash_, frame); }
 
@@ -41,6 +50,11 @@ void ClipCache::write(int frame, const CachedFrame& data) const {
                     {"retried_steps", data.figures.retried_steps},
                     {"residual", data.figures.residual},
                     {"inverted", data.figures.inverted}};
+  if (const std::optional<FrameAccuracy>& a = data.figures.accuracy) {
+    record.scalars["accuracy/estimate"] = a->estimate;
+    record.scalars["accuracy/coarse_steps"] = a->coarse_steps;
+    record.scalars["accuracy/met"] = a->met ? 1 : 0;
+  }
   for (std::size_t i = 0; i < data.fields.size(); ++i) {
     const std::string name = fmt::format("field/{}/", i + 1);
     record.arrays[name + "value"] = to_vector(data.fields[i].value);
@@ -69,6 +83,8 @@ std::optional<CachedFrame> ClipCache::read(int frame, int vertices) const {
     data.figures.retried_steps = s.at("retried_steps");
     data.figures.residual = s.at("residual");
     data.figures.inverted = s.at("inverted");
+    if (s.contains("accuracy/met"))
+      data.figures.accuracy = {s.at("accuracy/estimate"), s.at("accuracy/coarse_steps"), s.at("accuracy/met") != 0};
     const auto fields = s.find("fields");
     data.fields.resize(fields == s.end() ? 0 : static_cast<std::size_t>(fields->second));
     for (std::size_t i = 0; i < data.fields.size(); ++i) {

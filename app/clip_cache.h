@@ -10,12 +10,20 @@
 
 namespace softreel::app {
 
+/// Of a frame whose steps time.accuracy has chosen.
+struct FrameAccuracy {
+  double estimate = 0;      ///< of its error, in the unit that was asked for
+  double coarse_steps = 0;  ///< steps of the runs that the estimate took beside the clip's own; at frame 1
+  bool met = true;          ///< the estimate can be relied on, and is small enough in every frame
+};
+
 /// What a frame tells beside its state: counts and energies since the frame before.
 struct FrameFigures {
   sim::Energies energies;
   double steps = 0, newton_iterations = 0, linear_iterations = 0, retried_steps = 0;
   double residual = 0;  ///< the worst of those steps (sim::StepReport)
   double inverted = 0;  ///< tetrahedra that are inside out, in this frame
+  std::optional<FrameAccuracy> accuracy;
 };
 
 /// Of one field.
@@ -37,6 +45,9 @@ class ClipCache {
   ClipCache(std::filesystem::path folder, std::string simulation_hash);
 
   const std::filesystem::path& folder() const { return folder_; }
+  /// Of another run of the same simulation, in a folder beside this one.
+  ClipCache beside(const std::string& name) const;
+  void remove() const;  ///< the folder and what is in it
   void write(int frame, const CachedFrame& data) const;
   /// Nothing if missing, damaged, of another simulation, or not of `vertices` vertices (-1: any).
   std::optional<CachedFrame> read(int frame, int vertices = -1) const;

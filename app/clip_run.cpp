@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "app/accurate_clip.h"
 #include "app/forecast.h"
 #include "app/frame_range.h"
 #include "app/hashes.h"
@@ -40,6 +41,7 @@ ClipPlan plan_clip(const ClipArguments& a) {
   plan.figures.scene = a.scene;
   plan.figures.simulation_hash = hash;
   plan.figures.bill = bill_of(plan.scene);
+  plan.figures.accuracy = plan.scene.time.accuracy;
   plan.figures.frames_asked = static_cast<int>(plan.frames.size());
   return plan;
 }
@@ -70,9 +72,10 @@ Shapes simulate_plan(ClipPlan& plan, int last, bool quiet) {
     f.triangles += static_cast<long>(c.rest.triangles.size());
   }
   if (plan.cache.complete_frames(last) < last) {
-    if (!plan.force && has_step_limit(plan.scene)) refuse_hopeless(plan.scene, build_model(plan.scene, shapes));
+    if (!plan.force && !plan.scene.time.accuracy && has_step_limit(plan.scene)) refuse_hopeless(plan.scene, build_model(plan.scene, shapes));
     f.simulated = true;
-    f.clip = simulate_clip(plan.scene, shapes, plan.cache, last, quiet);
+    f.clip = plan.scene.time.accuracy ? simulate_to_accuracy(plan.scene, shapes, plan.cache, quiet)
+                                      : simulate_clip(plan.scene, shapes, plan.cache, last, quiet);
   } else {
     f.clip.frames_from_cache = last;
   }

@@ -40,13 +40,18 @@ int run_check(const CheckArguments& a) {
   const Shapes shapes = load_shapes(scene, cache_of_renders(a.scene));
   build_fields(scene, shapes);
   const sim::Model model = build_model(scene, shapes);
-  fmt::print("{}: no mistakes. {} frames at {:g} fps, {} steps of {:.4g} s\n\n", a.scene, scene.time.frames(),
-             scene.time.fps, (scene.time.frames() - 1) * scene.time.substeps, scene.time.step());
+  const std::string steps =
+      scene.time.accuracy
+          ? fmt::format("steps as an error of {} {} needs them", scene.time.accuracy->value, scene.time.accuracy->unit)
+          : fmt::format("{} steps of {:.4g} s", (scene.time.frames() - 1) * scene.time.substeps, scene.time.step());
+  fmt::print("{}: no mistakes. {} frames at {:g} fps, {}\n\n", a.scene, scene.time.frames(), scene.time.fps, steps);
   for (const std::string& note : scene.notes)
     fmt::print("note: {}\n{}", note, &note == &scene.notes.back() ? "\n" : "");
   for (const std::string& note : shapes.notes) fmt::print("note: {}\n", note);
   std::optional<Forecast> forecast;
-  if (model.vertices() > 0 && scene.time.integrator != "static") forecast = make_forecast(scene, model);
+  // Where an accuracy is asked for, the steps are not known before the run.
+  if (model.vertices() > 0 && scene.time.integrator != "static" && !scene.time.accuracy)
+    forecast = make_forecast(scene, model);
   if (forecast) fmt::print("{}\n", forecast_text(scene, model, *forecast));
   const std::vector<std::string> warnings = warnings_of(scene, shapes, model, forecast ? &*forecast : nullptr);
   for (const std::string& warning : warnings)

@@ -62,13 +62,14 @@ sim::FixedValues fixed_values(const assets::Scene& scene, const assets::Field& f
   return result;
 }
 
+constexpr int kMostSubsteps = 100000;
+
 void check_step(const assets::Scene& scene, const assets::Field& description, const sim::Field& field) {
   const assets::Time& time = scene.time;
   if (description.equation == "poisson" || sim::is_implicit(time.integrator)) return;
   const double largest = field.largest_eigenvalue();
   const std::string& equation = description.equation;
   if (sim::step_holds(equation, time.integrator, largest, time.step(), time.duration)) return;
-  constexpr int kMostSubsteps = 100000;
   const int steps =
       sim::steps_that_hold(equation, time.integrator, largest, 1 / time.fps, time.duration, kMostSubsteps);
   const std::string hold =
@@ -103,9 +104,27 @@ std::vector<sim::Field> build_fields(const assets::Scene& scene, const Shapes& s
     } catch (const std::invalid_argument& e) {
       refuse(scene, f, e.what());
     }
-    check_step(scene, f, fields.back());
+    if (!scene.time.accuracy) check_step(scene, f, fields.back());  // which chooses steps that hold
   }
   return fields;
+}
+
+double field_steps_per_frame(const assets::Scene& scene, const std::vector<sim::Field>& fields) {
+  const assets::Time& time = scene.time;
+  int most = 1;
+  for (size_t i = 0; i < fields.size(); ++i) {
+    const assets::Field& f = scene.fields[i];
+    if (f.equation == "poisson" || sim::is_implicit(time.integrator)) continue;
+    const int steps = sim::steps_that_hold(f.equation, time.integrator, fields[i].largest_eigenvalue(), 1 / time.fps,
+                                           time.duration, kMostSubsteps);
+    if (steps == 0)
+      refuse(scene, f,
+             fmt::format("not even {} steps a frame of {} hold; coarser cells allow longer "
+                         "steps, and time.integrator = \"implicit-euler\" any",
+                         kMostSubsteps, time.integrator));
+    most = std::max(most, steps);
+  }
+  return most;
 }
 
 }  // namespace softreel::app

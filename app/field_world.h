@@ -13,4 +13,8 @@ namespace softreel::app {
 /// explicit method (with the substeps that hold).
 std::vector<sim::Field> build_fields(const assets::Scene& scene, const Shapes& shapes);
 
+/// Steps between two frames with which the explicit time.integrator holds on all of them; 1 if any number does. Throws
+/// UserError (kUsage) if no number does.
+double field_steps_per_frame(const assets::Scene& scene, const std::vector<sim::Field>& fields);
+
 }  // namespace softreel::app

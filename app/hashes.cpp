@@ -52,6 +52,11 @@ void add_assets(const assets::Scene& scene, bool physics, assets::ContentHasher&
 std::string simulation_hash(const assets::Scene& scene) {
   assets::ContentHasher hasher;
   hasher.add(kSimulationVersion).add(assets::canonical_physics(scene));
+  if (scene.time.accuracy) {
+    hasher.add(scene.time.frames());  // steps are chosen for the whole clip
+    // A pixel is as large as the camera sees it.
+    if (scene.time.accuracy->unit == "px") hasher.add(assets::canonical_picture(scene));
+  }
   add_assets(scene, true, hasher);
   return hasher.hex();
 }

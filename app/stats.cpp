@@ -16,6 +16,26 @@ long peak_memory_bytes() {
   return usage.ru_maxrss * 1024L;
 }
 
+struct ReachedAccuracy {
+  double estimate = 0;  // largest of the frames, in the unit that was asked for
+  long coarse_steps = 0, steps = 0;
+  bool met = true;
+};
+
+/// Nothing if none was asked for, or no frame was read.
+std::optional<ReachedAccuracy> reached_accuracy(const RunFigures& run) {
+  if (!run.accuracy || run.per_frame.empty() || !run.per_frame.front().accuracy) return std::nullopt;
+  ReachedAccuracy reached;
+  for (const FrameFigures& f : run.per_frame) {
+    if (!f.accuracy) continue;
+    reached.estimate = std::max(reached.estimate, f.accuracy->estimate);
+    reached.coarse_steps += static_cast<long>(f.accuracy->coarse_steps);
+    reached.steps += static_cast<long>(f.steps);
+    reached.met = reached.met && f.accuracy->met;
+  }
+  return reached;
+}
+
 }  // namespace
 
 void write_stats(const std::filesystem::path& file, const RunFigures& run) {
@@ -56,6 +76,16 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
   j["newton_iterations"] = static_cast<long>(sum.newton_iterations);
   j["linear_iterations"] = static_cast<long>(sum.linear_iterations);
   j["retried_steps"] = static_cast<long>(sum.retried_steps);
+  if (const std::optional<ReachedAccuracy> a = reached_accuracy(run)) {
+    j["accuracy"] = {{"asked", run.accuracy->value},
+                     {"unit", run.accuracy->unit},
+                     {"estimate", a->estimate},
+                     {"met", a->met},
+                     {"steps", static_cast<long>(sum.steps)},
+                     {"coarse_steps", a->coarse_steps}};
+    for (const FrameFigures& f : run.per_frame)
+      j["accuracy"]["per_frame"].push_back(f.accuracy ? f.accuracy->estimate : 0);
+  }
   // A stage that was left out is absent.
   const auto seconds = [&](const char* section, const char* stage, double s) {
     if (s > 0) j[section][stage] = s;
@@ -136,6 +166,16 @@ std::string summary(const RunFigures& run) {
                         run.clip.total.residual);
   else if (run.simulated)
     text += fmt::format("\n{} steps, {} retried", run.clip.total.steps, run.clip.total.retries);
+  if (const std::optional<ReachedAccuracy> a = reached_accuracy(run)) {
+    text += fmt::format(
+        "\nerror in time: {:.2g} {} at most, as estimated; asked for were {} {}. {} steps, and {} of coarser "
+        "runs",
+        a->estimate, run.accuracy->unit, run.accuracy->value, run.accuracy->unit, a->steps, a->coarse_steps);
+    if (!a->met)
+      text +=
+          "\nnote: finer steps did not bring the motion closer to one answer (impacts and chaos do that), so the "
+          "accuracy is not reached, and the estimate is a guess";
+  }
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The figures of a run, as JSON (--stats) and as the last lines on the terminal.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct RunFigures {
   int frames_asked = 0, frames_rendered = 0, frames_up_to_date = 0;
   bool simulated = false;  ///< a simulation was started in this run
   ClipRun clip;
+  std::optional<assets::Accuracy> accuracy;  ///< that was asked for
   render::RenderCounters counters;
   std::vector<FrameFigures> per_frame;  ///< of the clip's frames that were read, from frame 1
   double load = 0, tetrahedralize = 0, render = 0, encode = 0, total = 0;  ///< [s]
