@@ -35,9 +35,8 @@ void AdaptiveRecorder::add(const Eigen::VectorXd& y, const std::vector<const Eig
 
 AdaptiveFigures AdaptiveRecorder::figures() const {
   AdaptiveFigures figures = so_far_;
-  // A clip too short for one difference has intervals that are all alike.
-  if (last_.size() > order_ + 1 || figures.local.empty()) return figures;
-  if (*std::max_element(figures.local.begin(), figures.local.end()) == 0)
+  // In a clip too short for one difference, or that a method of this order follows exactly, all intervals are alike.
+  if (std::all_of(figures.local.begin(), figures.local.end(), [](double l) { return l == 0; }))
     std::fill(figures.local.begin(), figures.local.end(), 1.0);
   return figures;
 }

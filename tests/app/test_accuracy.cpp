@@ -54,9 +54,9 @@ TEST_CASE("accuracy in millimetres, pixels and percent keeps the error of every 
   };
   for (const Case& c : {Case{"mm", "1 mm", "newmark", 1e-3}, Case{"px", "0.01 px", "verlet", 0.01 * metres_per_pixel},
                         Case{"percent", "0.05 %", "rk4", 0.0005 * 0.8}}) {
-    const auto stats = simulate(pendulum(std::string("integrator = \"") + c.integrator + "\"\naccuracy = \"" +
-                                         c.accuracy + "\"\n"),
-                                folder, c.name);
+    const auto stats =
+        simulate(pendulum(std::string("integrator = \"") + c.integrator + "\"\naccuracy = \"" + c.accuracy + "\"\n"),
+                 folder, c.name);
     INFO(c.name);
     const auto& a = stats.at("accuracy");
     const double unit = c.metres / a.at("asked").get<double>();  // [m]
@@ -106,7 +106,8 @@ TEST_CASE("accuracy of a field is a part of the range of its values") {
   const auto heat = [](const std::string& time) {
     return "[time]\nfps = 20\nduration = 0.5\n" + time +
            "[[field]]\nname = \"plate\"\nequation = \"heat\"\ndiffusivity = 0.05\n"
-           "grid = { size = [1, 1], cells = [8, 8] }\ninitial = \"cos(pi*x)*cos(pi*z)\"\nfixed = [{ boundary = true }]\n";
+           "grid = { size = [1, 1], cells = [8, 8] }\ninitial = \"cos(pi*x)*cos(pi*z)\"\nfixed = [{ boundary = true "
+           "}]\n";
   };
   const auto stats = simulate(heat("integrator = \"implicit-euler\"\naccuracy = \"0.2 %\"\n"), folder, "adaptive");
   const auto fine = simulate(heat("integrator = \"rk4\"\nsubsteps = 100\n"), folder, "fine");
