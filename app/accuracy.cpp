@@ -16,9 +16,9 @@ namespace {
 
 [[noreturn]] void refuse(const assets::Scene& scene, const std::string& why) {
   const assets::Accuracy& asked = *scene.time.accuracy;
-  throw assets::UserError(assets::ErrorKind::kUsage, scene.file.string(),
-                          fmt::format("time.accuracy = \"{} {}\": {}; take a length such as \"1 mm\"", asked.value,
-                                      asked.unit, why));
+  throw assets::UserError(
+      assets::ErrorKind::kUsage, scene.file.string(),
+      fmt::format("time.accuracy = \"{} {}\": {}; take a length such as \"1 mm\"", asked.value, asked.unit, why));
 }
 
 double diagonal(const Eigen::VectorXd& x) {
@@ -40,8 +40,7 @@ double pixel(const assets::Scene& scene, const Shapes& shapes, const CachedFrame
     position = to_glm(*c.position);
     ahead = (c.target ? to_glm(*c.target) : middle) - position;
   } else {
-    const render::Camera framed =
-        render::frame_points(extent.points, fov, aspect, glm::normalize(to_glm(c.direction)));
+    const render::Camera framed = render::frame_points(extent.points, fov, aspect, glm::normalize(to_glm(c.direction)));
     ahead = framed.target - framed.position;
     position = c.target ? to_glm(*c.target) - ahead : framed.position;
   }

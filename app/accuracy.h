@@ -15,9 +15,9 @@ struct AccuracyTarget {
   double of_range = 0;  ///< RMS over the vertices of a field, as a part of its range; 0: there is no field
 };
 
-/// `start`: frame 1. Pixels are those at the distance of the camera from the middle of the scene; an automatic camera is
-/// taken as it frames the start. Throws UserError (kUsage) for a part of a scene without size, and for pixels where the
-/// camera stands in the middle of the scene.
+/// `start`: frame 1. Pixels are those at the distance of the camera from the middle of the scene; an automatic camera
+/// is taken as it frames the start. Throws UserError (kUsage) for a part of a scene without size, and for pixels where
+/// the camera stands in the middle of the scene.
 AccuracyTarget accuracy_target(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& start);
 
 /// Ranges of the values of fields over the frames that were added.

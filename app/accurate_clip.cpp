@@ -165,8 +165,7 @@ class Search {
     for (int f : last.visited) {
       CachedFrame frame = last.read(f);
       frame.figures.accuracy = {estimates[static_cast<size_t>(f)] * scene_.time.accuracy->value,
-                                f == 0 ? coarse_steps_ - own_steps : 0,
-                                plan_.verdict() == AdaptivePlan::Verdict::kMet};
+                                f == 0 ? coarse_steps_ - own_steps : 0, plan_.verdict() == AdaptivePlan::Verdict::kMet};
       cache_.write(f + 1, frame);
     }
     result_.frames_simulated = scene_.time.frames();
