@@ -1,4 +1,6 @@
 // time.accuracy from the scene file to the figures of a run.
+#include <signal.h>
+
 #include <cmath>
 
 #include "app/clip_cache.h"
@@ -98,7 +100,7 @@ TEST_CASE("The closing lines name the estimate, and nothing is said about accura
   const std::string with = lines("accuracy = \"2 mm\"\nintegrator = \"bdf2\"\n");
   CHECK(test::contains(with, "error in time: "));
   CHECK(test::contains(with, "asked for were 2 mm"));
-  CHECK_FALSE(test::contains(lines("integrator = \"bdf2\"\n"), "error in time"));
+  CHECK_FALSE(test::contains(lines("integrator = \"bdf2\"\n"), "asked for"));
 }
 
 TEST_CASE("accuracy of a field is a part of the range of its values") {
@@ -146,7 +148,7 @@ TEST_CASE("What accuracy cannot mean is refused, with what it can") {
   refused("accuracy = \"1 potato\"\n", "such as \"1 mm\", \"0.5 px\" or \"0.1 %\"");
   refused("accuracy = \"0 mm\"\n", "a number above 0");
   refused("accuracy = \"mm\"\n", "a number above 0");
-  refused("accuracy = \"1 mn\"\n", "did you mean \"mm\"?");
+  refused("accuracy = \"1 mn\"\n", "did you mean");
   refused("accuracy = \"1 mm\"\nintegrator = \"static\"\n", "is an error in time");
   const test::RunResult field = check("[time]\naccuracy = \"1 mm\"\n[[field]]\ngrid = { size = [1, 1] }\n", {});
   CHECK(field.code == 2);
