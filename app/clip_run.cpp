@@ -72,7 +72,8 @@ Shapes simulate_plan(ClipPlan& plan, int last, bool quiet) {
     f.triangles += static_cast<long>(c.rest.triangles.size());
   }
   if (plan.cache.complete_frames(last) < last) {
-    if (!plan.force && !plan.scene.time.accuracy && has_step_limit(plan.scene)) refuse_hopeless(plan.scene, build_model(plan.scene, shapes));
+    if (!plan.force && !plan.scene.time.accuracy && has_step_limit(plan.scene))
+      refuse_hopeless(plan.scene, build_model(plan.scene, shapes));
     f.simulated = true;
     f.clip = plan.scene.time.accuracy ? simulate_to_accuracy(plan.scene, shapes, plan.cache, quiet)
                                       : simulate_clip(plan.scene, shapes, plan.cache, last, quiet);
