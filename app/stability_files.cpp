@@ -88,7 +88,7 @@ int run_stability_map(const StudyArguments& a, double seconds) {
   const MapScore score = score_of(map);
   assets::write_file_atomically(output / "stability.csv", csv_of(map));
   assets::write_file_atomically(output / "stability.json", json_of(a, map, score));
-  const bool drawn = draw_plot(stability_plot(a.scene, map), output);
+  const bool drawn = draw_plot(stability_plot(fs::path(a.scene).stem().string(), map), output);
   for (const Outcome outcome : {Outcome::kHeld, Outcome::kDampedAway, Outcome::kDrifted, Outcome::kBlewUp,
                                 Outcome::kNotConverged, Outcome::kRefused, Outcome::kNotRun}) {
     const auto n =

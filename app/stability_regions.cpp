@@ -43,7 +43,7 @@ StudyPlot regions_plot() {
   constexpr int kColumns = 4;
   const int rows = (static_cast<int>(methods.size()) + kColumns - 1) / kColumns;
   std::string script = fmt::format(
-      "set encoding utf8\nset multiplot layout {},{} margins 0.04,0.99,0.06,0.94 spacing 0.035,0.13\n"
+      "set encoding utf8\nset multiplot layout {},{} margins 0.04,0.99,0.06,0.94 spacing 0.035,0.15\n"
       "set border lc rgb \"#999999\"\nset tics nomirror out scale 0.4 font \",9\" textcolor rgb \"#333333\"\n"
       "set palette defined (-1 \"#56b4e9\", 0 \"#56b4e9\", 0 \"#ffffff\", 1 \"#ffffff\")\nset cbrange [-1:1]\n"
       "unset colorbox\nunset key\nset size ratio -1\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
@@ -51,7 +51,7 @@ StudyPlot regions_plot() {
       "set arrow 2 from 0,{} to 0,{} nohead lc rgb \"#777777\" lw 0.7 front\n",
       rows, kColumns, kLeft, kRight, -kTop, kTop, kLeft, kRight, -kTop, kTop);
   for (size_t k = 0; k < methods.size(); ++k) {
-    script += fmt::format("set title \"{}\" noenhanced font \",11\"\n$m{} << EOD\n{}EOD\n", methods[k].name, k,
+    script += fmt::format("set title \"{}\" noenhanced offset 0,-0.5 font \",11\"\n$m{} << EOD\n{}EOD\n", methods[k].name, k,
                           matrix_of(methods[k].name));
     // On the bound of a region that is the whole left half rounding decides: what is not above 1e-6 counts as inside.
     script += fmt::format("plot $m{} matrix using ({} + {}*$1):({} + {}*$2):($3 > 1e-6 ? 1 : -1) with image\n", k,
