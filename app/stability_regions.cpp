@@ -51,8 +51,8 @@ StudyPlot regions_plot() {
       "set arrow 2 from 0,{} to 0,{} nohead lc rgb \"#777777\" lw 0.7 front\n",
       rows, kColumns, kLeft, kRight, -kTop, kTop, kLeft, kRight, -kTop, kTop);
   for (size_t k = 0; k < methods.size(); ++k) {
-    script += fmt::format("set title \"{}\" noenhanced offset 0,-0.5 font \",11\"\n$m{} << EOD\n{}EOD\n", methods[k].name, k,
-                          matrix_of(methods[k].name));
+    script += fmt::format("set title \"{}\" noenhanced offset 0,-0.5 font \",11\"\n$m{} << EOD\n{}EOD\n",
+                          methods[k].name, k, matrix_of(methods[k].name));
     // On the bound of a region that is the whole left half rounding decides: what is not above 1e-6 counts as inside.
     script += fmt::format("plot $m{} matrix using ({} + {}*$1):({} + {}*$2):($3 > 1e-6 ? 1 : -1) with image\n", k,
                           kLeft, (kRight - kLeft) / (kAcross - 1), -kTop, kTop / kUp);

@@ -39,7 +39,10 @@ void AutoSolver::analyse(const BlockMatrix& A) {
 void AutoSolver::factorize(const BlockMatrix& A) { A_ = &A; }
 
 /// Iterations that cost as much as a factorization.
-long AutoSolver::affordable() { return std::max(10L, static_cast<long>(cholesky_work() / iteration_work())); }
+long AutoSolver::affordable() {
+  counted_ = true;
+  return std::max(10L, static_cast<long>(cholesky_work() / iteration_work()));
+}
 
 LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
   if (A_->rows() > kSmall && (!direct_ || ++direct_solves_ > pause_)) {
@@ -57,10 +60,10 @@ LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& ta
 LinearReport AutoSolver::iterate(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
   constexpr long kCheap = 60;
   cg_.factorize(*A_);
-  cg_.set_max_iterations(cholesky_.analysed() ? affordable() : kCheap);
+  cg_.set_max_iterations(counted_ ? affordable() : kCheap);
   LinearReport report = cg_.solve(b, targets, x);
   long spent = 0;
-  if (!report.ok && !report.indefinite && !cholesky_.analysed() && affordable() > kCheap) {
+  if (!report.ok && !report.indefinite && !counted_ && affordable() > kCheap) {
     spent = report.iterations;
     cg_.set_max_iterations(affordable());
     report = cg_.solve(b, targets, x);
@@ -94,7 +97,7 @@ std::size_t AutoSolver::bytes() const { return cg_.bytes() + (cholesky_.analysed
 
 std::vector<double> AutoSolver::memory() const {
   return {direct_ ? 1.0 : 0.0, static_cast<double>(direct_solves_), static_cast<double>(pause_), mean_,
-          cholesky_.analysed() ? 1.0 : 0.0};
+          counted_ ? 1.0 : 0.0};
 }
 
 void AutoSolver::restore(std::span<const double> saved) {
@@ -103,7 +106,7 @@ void AutoSolver::restore(std::span<const double> saved) {
   direct_solves_ = static_cast<long>(saved[1]);
   pause_ = static_cast<long>(saved[2]);
   mean_ = saved[3];
-  if (saved[4] != 0 && !cholesky_.analysed()) cholesky_.analyse(*A_);
+  counted_ = saved[4] != 0;
 }
 
 }  // namespace softreel::sim

@@ -26,7 +26,8 @@ class AutoSolver final : public LinearSolver {
   const BlockMatrix* A_ = nullptr;
   CholeskySolver cholesky_;
   ConjugateGradientSolver cg_;
-  bool direct_ = false;     // iterations are too expensive at present
+  bool counted_ = false;  // what a factorization costs is known; not whether the factor is analysed, which no run saves
+  bool direct_ = false;   // iterations are too expensive at present
   long direct_solves_ = 0;  // since they were last tried
   long pause_ = 0;          // direct ones until they are tried again
   double mean_ = 0;         // iterations of a solve, the latest weighing most

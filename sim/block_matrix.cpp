@@ -1,11 +1,14 @@
 #include "sim/block_matrix.h"
 
+#include <cassert>
+
 #include "sim/block_rows.h"
 #include "sim/parallel.h"
 
 namespace softreel::sim {
 
 void BlockMatrix::multiply_rows(int first, int count, const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  assert(values.size() > 9 * column.size());
   multiply_block_rows(row_start, column, values.data(), first, count, x.data(), y.data());
 }
 

@@ -16,7 +16,9 @@ namespace {
 constexpr int kFewRows = 600;
 // Targets below this part of b are better reached in double precision from the start.
 constexpr double kSingleTarget = 1e-5;
-constexpr double kSmallestSingle = 1e-20;  // of b, far from the ends of the range of single precision
+// A matrix of a condition beyond 1e7 is another one in single precision, and hard to get to the end of: after so many
+// iterations double precision goes on.
+constexpr long kSingleIterations = 600;
 constexpr double kRefinementPays = 0.1;
 
 using Chunk = ConjugateGradientSolver::Chunk;
@@ -60,17 +62,16 @@ void ConjugateGradientSolver::measure() {
 }
 
 /// The residual of every body within its target?
-bool ConjugateGradientSolver::within(const LinearTargets& targets) {
+bool ConjugateGradientSolver::within(const LinearTargets& targets, double size) {
   norms_.assign(std::max<size_t>(1, targets.bodies.size()), 0.0);
   for (size_t c = 0; c < chunks_.size(); ++c) norms_[chunks_[c].body] += rr_[c];
   for (size_t body = 0; body < targets.residual.size(); ++body)
-    if (!(norms_[body] <= targets.residual[body] * targets.residual[body])) return false;
+    if (!(size * std::sqrt(norms_[body]) <= targets.residual[body])) return false;
   return true;
 }
 
 bool ConjugateGradientSolver::single_precision_serves(const LinearTargets& targets) {
   if (A_->rows() < kFewRows || targets.residual.empty() || !preconditioner_->diagonal_blocks()) return false;
-  if (const double size = norm(r_); !(size > kSmallestSingle && size < 1 / kSmallestSingle)) return false;
   for (size_t body = 0; body < targets.residual.size(); ++body)
     if (!(targets.residual[body] >= kSingleTarget * std::sqrt(norms_[body]))) return false;
   return true;
@@ -98,45 +99,46 @@ LinearReport ConjugateGradientSolver::solve(const Eigen::VectorXd& b, const Line
   measure();
   bool done = within(targets), single = single_precision_serves(targets);
   if (single && single_.empty()) make_single();
-  for (double last = norm(r_); !done;) {
-    End end;
-    if (single) {
-      float_.r = r_.cast<float>();
-      end = iterate(targets, float_, report);
-    } else {
-      double_.r = r_;
-      end = iterate(targets, double_, report);
+  const long limit = max_iterations_ > 0 ? max_iterations_ : std::max(1000L, 10L * b.size());
+  for (double last = norm(r_); !done && single;) {
+    const double size = norm(r_);  // brought to 1: single precision ends at 1e-38
+    float_.r = (r_ / size).cast<float>();
+    const End end = iterate(targets, size, std::min(limit, report.iterations + kSingleIterations), float_, report);
+    x_next_ = x + size * float_.dx.cast<double>();
+    residual_of(*A_, b, x_next_, r_next_);
+    const double now = norm(r_next_);
+    if (now < last) {
+      x.swap(x_next_);
+      r_.swap(r_next_);
     }
+    measure();
+    done = within(targets);
+    // What rounding has left is solved for once more, as long as that pays.
+    single = end == End::kDone && now < kRefinementPays * last;
+    last = now;
+  }
+  if (!done) {
+    double_.r = r_;
+    const End end = iterate(targets, 1, limit, double_, report);
     if (end == End::kTooSlow) {
       report.reason = "conjugate gradients did not converge in " + std::to_string(report.iterations) + " iterations";
       return report;
     }
-    if (end == End::kIndefinite && !single) {
+    if (end == End::kIndefinite) {
       refuse(report, kNotPositiveDefinite, *A_, b);
       return report;
     }
-    if (!single) {
-      x += double_.dx;
-      break;
-    }
-    // What rounding has left is solved for once more, as long as that pays.
-    if (end == End::kDone) x += float_.dx.cast<double>();
-    residual_of(*A_, b, x, r_);
-    measure();
-    done = within(targets);
-    const double now = norm(r_);
-    single = end == End::kDone && now < kRefinementPays * last;
-    last = now;
+    x += double_.dx;
   }
   report.ok = true;
   correct_rigid_modes(*A_, b, targets, x);
   return report;
 }
 
-/// w.dx := the correction for w.r, until the recursion's residual is within the targets.
+/// w.dx := the correction for w.r, until the recursion's residual is within the targets; w is in units of `size`.
 template <class Scalar>
-ConjugateGradientSolver::End ConjugateGradientSolver::iterate(const LinearTargets& targets, Vectors<Scalar>& w,
-                                                              LinearReport& report) {
+ConjugateGradientSolver::End ConjugateGradientSolver::iterate(const LinearTargets& targets, double size, long limit,
+                                                              Vectors<Scalar>& w, LinearReport& report) {
   using Block = Eigen::Matrix<Scalar, 3, 3>;
   constexpr bool kSingle = std::is_same_v<Scalar, float>;
   const int n = A_->rows();
@@ -185,8 +187,7 @@ ConjugateGradientSolver::End ConjugateGradientSolver::iterate(const LinearTarget
     precondition_all();
   w.p = w.z;
   double rz = sum(rz_);
-  const long limit = max_iterations_ > 0 ? max_iterations_ : std::max(1000L, 10L * w.r.size());
-  while (!within(targets)) {
+  while (!within(targets, size)) {
     if (report.iterations >= limit) return End::kTooSlow;
     ++report.iterations;
     for_chunks(chunks_, n, [&](size_t c, const Chunk& chunk) {

@@ -39,11 +39,11 @@ class ConjugateGradientSolver final : public LinearSolver {
     std::size_t bytes() const { return sizeof(Scalar) * (blocks.size() + 5 * static_cast<size_t>(r.size())); }
   };
   void measure();
-  bool within(const LinearTargets& targets);
+  bool within(const LinearTargets& targets, double size = 1);
   bool single_precision_serves(const LinearTargets& targets);
   void make_single();
   template <class Scalar>
-  End iterate(const LinearTargets& targets, Vectors<Scalar>& w, LinearReport& report);
+  End iterate(const LinearTargets& targets, double size, long limit, Vectors<Scalar>& w, LinearReport& report);
 
   const BlockMatrix* A_ = nullptr;
   LazyPreconditioner preconditioner_;
@@ -52,6 +52,7 @@ class ConjugateGradientSolver final : public LinearSolver {
   std::vector<Chunk> chunks_;
   std::vector<double> rz_, rr_, pAp_;  // per chunk: r . z, r . r, p . A p
   std::vector<double> norms_;          // per body: r . r
+  Eigen::VectorXd x_next_, r_next_;    // after a correction in single precision
   Eigen::VectorXd r_;                  // of A, in double precision
   Vectors<double> double_;
   Vectors<float> float_;

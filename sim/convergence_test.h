@@ -44,8 +44,12 @@ class ConvergenceTest {
   const std::string& slowest() const;
   /// Rounding of the function's value [kg m^2].
   double value_rounding() const { return value_rounding_; }
-  /// Per body, the gradient at which the residual test fires.
-  const std::vector<double>& targets() const { return targets_; }
+  /// Per body, the gradient beyond which a linear solve need not go: where the residual test fires; the others judge
+  /// what a solve gives, which has to be there, down to rounding.
+  const std::vector<double>& linear_targets() const { return test_ == StoppingTest::kResidual ? targets_ : floors_; }
+  /// Is the measure taken where `start` was called, whatever the first direction starts from? Not that of the
+  /// decrement.
+  bool measured_at_start() const { return test_ != StoppingTest::kDecrement; }
 
   std::vector<double> body_norms(const Eigen::VectorXd& g) const;
 

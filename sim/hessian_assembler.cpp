@@ -162,7 +162,10 @@ void HessianAssembler::add(const double* blocks, std::span<const std::uint32_t> 
 
 void HessianAssembler::add_part(int part, std::span<const ScaledTerm> terms, Definiteness definiteness,
                                 BlockMatrix& matrix) {
-  std::array<double, static_cast<size_t>(kBatch * hessian_doubles(kMostVertices))> batch;
+  using Batch = std::array<double, static_cast<size_t>(kBatch * hessian_doubles(kMostVertices))>;
+  // A term that counts for nothing, as damping in an equilibrium, is not asked: it may have no velocities to go by.
+  static constexpr Batch kNothing{};
+  Batch batch;
   for (size_t t = 0; t < terms.size(); ++t) {
     const ScaledTerm& s = terms[t];
     const auto doubles = static_cast<size_t>(hessian_doubles(s.term->stencil_size()));
@@ -172,7 +175,9 @@ void HessianAssembler::add_part(int part, std::span<const ScaledTerm> terms, Def
     for (int e = first; e < last; e += kBatch) {
       const StencilRange range{e, std::min(kBatch, last - e)};
       const double* blocks = batch.data();
-      if (plan.constant_scale != 0)
+      if (s.scale == 0)
+        blocks = kNothing.data();
+      else if (s.term->constant_hessian())
         blocks = plan.constant.data() + doubles * static_cast<size_t>(e);
       else
         s.term->element_hessians(*s.at, s.scale, definiteness, range, batch.data());
@@ -190,9 +195,9 @@ void HessianAssembler::assemble(std::span<const ScaledTerm> terms, const Eigen::
   for (size_t t = 0; t < terms.size(); ++t) {
     const ScaledTerm& s = terms[t];
     TermPlan& plan = plans_[t];
-    if (plan.targets.empty()) continue;
+    if (plan.targets.empty() || s.scale == 0) continue;
     const bool constant = s.term->constant_hessian();
-    if (constant && plan.constant_scale == s.scale && s.scale != 0) continue;
+    if (constant && plan.constant_scale == s.scale) continue;
     ++evaluations_;
     if (!constant) continue;
     plan.constant.resize(9 * plan.targets.size());

@@ -2,6 +2,7 @@
 // Adds element Hessians up into one sparse matrix by fixed gather lists.
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -37,9 +38,9 @@ class HessianAssembler {
 
  private:
   struct TermPlan {
-    std::vector<std::uint32_t> targets;  // per stencil and upper block of it: where it goes, see Target
-    std::vector<double> constant;        // of a constant Hessian: its blocks
-    double constant_scale = 0;           // and the factor in them; 0: there is nothing yet
+    std::vector<std::uint32_t> targets;    // per stencil and upper block of it: where it goes, see Target
+    std::vector<double> constant;          // of a constant Hessian: its blocks
+    std::optional<double> constant_scale;  // and the factor in them; none: there is nothing yet
   };
   struct Target;
 

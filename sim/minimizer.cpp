@@ -57,7 +57,7 @@ void Minimizer::run(Eigen::VectorXd& y, const Eigen::VectorXd* guess, StepReport
   if (!failure.empty()) return;
   phi_.gradient(y, g_, report);
   test_.start(y, g_);
-  if (guess) {
+  if (guess && test_.measured_at_start()) {
     phi_.gradient(*guess, guess_gradient_, report);
     if (guess_gradient_.squaredNorm() < g_.squaredNorm()) {
       y = *guess;

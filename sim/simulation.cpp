@@ -232,7 +232,7 @@ void Simulation::restore(const State& state, std::span<const double> memory) {
     method_.implicit_method->restore(memory.subspan(2, history));
   else
     method_.explicit_method->restore(memory.subspan(2, history));
-  if (minimizer_) minimizer_->restore(start_guess_.restore(memory.subspan(2 + history)));
+  if (minimizer_) minimizer_->restore(start_guess_.restore(memory.subspan(2 + history), state.x.size()));
 }
 
 }  // namespace softreel::sim

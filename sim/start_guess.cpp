@@ -16,9 +16,9 @@ void append(std::vector<double>& saved, const Eigen::VectorXf& v) {
   if (n > 0) std::memcpy(saved.data() + saved.size() - packed(n), v.data(), n * sizeof(float));
 }
 
-std::span<const double> take(std::span<const double> saved, Eigen::VectorXf& v) {
+std::span<const double> take(std::span<const double> saved, Eigen::Index size, Eigen::VectorXf& v) {
   const auto unfit = [] { throw std::invalid_argument("memory of another simulation"); };
-  if (saved.empty()) unfit();
+  if (saved.empty() || (saved[0] != 0 && saved[0] != static_cast<double>(size))) unfit();
   const auto n = static_cast<size_t>(saved[0]);
   if (saved.size() < 1 + packed(n)) unfit();
   v.resize(static_cast<Eigen::Index>(n));
@@ -55,10 +55,10 @@ std::vector<double> StartGuess::memory() const {
   return saved;
 }
 
-std::span<const double> StartGuess::restore(std::span<const double> saved) {
+std::span<const double> StartGuess::restore(std::span<const double> saved, Eigen::Index size) {
   if (saved.empty()) throw std::invalid_argument("memory of another simulation");
   h_ = saved[0];
-  return take(take(saved.subspan(1), last_), before_);
+  return take(take(saved.subspan(1), size, last_), size, before_);
 }
 
 }  // namespace softreel::sim

@@ -21,8 +21,9 @@ class StartGuess {
   void forget();
 
   std::vector<double> memory() const;
-  /// Takes its part from the front of `saved` and returns the rest. Throws std::invalid_argument.
-  std::span<const double> restore(std::span<const double> saved);
+  /// Takes its part from the front of `saved` and returns the rest. Throws std::invalid_argument for what is not of
+  /// `size` coordinates.
+  std::span<const double> restore(std::span<const double> saved, Eigen::Index size);
 
  private:
   Eigen::VectorXf last_, before_;  // accelerations of the last step and the one before it, 3n [m/s^2], or empty

@@ -101,12 +101,13 @@ Minimizer::Failure Newton::advance(int iteration, Eigen::VectorXd& y, StepReport
   return failure;
 }
 
-/// kAuto only: the exact Hessian has shown itself indefinite, so clamped ones for a while: the longer, the more often
-/// that happens.
-void Newton::clamp_for_a_while(int iteration) {
+/// kAuto only: the exact Hessian gave no way down, so clamped ones for a while. If it has shown itself `indefinite`, so
+/// do the next solves: the longer, the more often that happens.
+void Newton::clamp_for_a_while(int iteration, bool indefinite) {
   definiteness_ = Definiteness::kClamped;
   next_exact_ = iteration + 1 + kClampedAgain;
   mistrusted_ = true;
+  if (!indefinite) return;
   mistrust_ = next_mistrust_ = std::min(2 * next_mistrust_ + 1, kLongestMistrust);
 }
 
@@ -124,7 +125,7 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
   const auto may_clamp = [&] { return modification_ == Modification::kAuto && definiteness_ == Definiteness::kExact; };
   // One that conjugate gradients did not see to be indefinite may still give a way up.
   if (may_clamp() && (!found || !(g_.dot(d_) < 0))) {
-    clamp_for_a_while(iteration);
+    clamp_for_a_while(iteration, found ? g_.dot(d_) > 0 : indefinite_);
     model_at();
     found = direction(y, report, failure);
   }
@@ -157,7 +158,7 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
       model_at();
       model_gradient_ = g_;
     } else if (may_clamp()) {
-      clamp_for_a_while(iteration);
+      clamp_for_a_while(iteration, false);
       model_at();
     } else if (!shift_more()) {
       return false;
@@ -178,7 +179,7 @@ std::vector<double> Newton::linear_targets() const {
   std::vector<double> result = test_.body_norms(model_gradient_);
   const double forcing = std::max(forcing_, linear_tolerance_);
   for (size_t b = 0; b < result.size(); ++b) {
-    const double end = kLinearShare * test_.targets()[b];
+    const double end = kLinearShare * test_.linear_targets()[b];
     const bool near = forcing * result[b] < kNearTheEnd * end;
     result[b] = std::max(end, (near ? linear_tolerance_ : forcing) * result[b]);
   }
@@ -197,7 +198,8 @@ bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string
   const Stage& stage = phi_.stage();
   const double mean = stage.inertia * model_.masses.mean() + stage.beta * phi_.stiffness().mean();
   while (true) {
-    if (const double c = shift_ * mean; c != applied_shift_) {
+    const bool tried = modification_ == Modification::kAuto && definiteness_ == Definiteness::kExact;
+    if (const double c = tried ? 0 : shift_ * mean; c != applied_shift_) {
       for (const int k : H_.diagonal) H_.block(k).diagonal().array() += c - applied_shift_;
       applied_shift_ = c;
     }
@@ -208,7 +210,6 @@ bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string
     if (linear.ok) return true;
     failure = "the linear solver failed: " + linear.reason;
     indefinite_ = linear.indefinite;
-    const bool tried = modification_ == Modification::kAuto && definiteness_ == Definiteness::kExact;
     if (!linear.indefinite || tried || !shift_more()) return false;
   }
 }

@@ -39,7 +39,7 @@ class Newton final : public Minimizer {
 
   void prepare();
   bool step(int iteration, Eigen::VectorXd& y, StepReport& report, std::string& failure);
-  void clamp_for_a_while(int iteration);
+  void clamp_for_a_while(int iteration, bool indefinite);
   bool shift_more();
   bool direction(const Eigen::VectorXd& y, StepReport& report, std::string& failure);
   std::vector<double> linear_targets() const;

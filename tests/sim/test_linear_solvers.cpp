@@ -304,6 +304,22 @@ TEST_CASE("conjugate gradients in single precision end within the targets of the
   }
 }
 
+TEST_CASE("a matrix too ill-conditioned for single precision costs no more than the attempt") {
+  // A slender bar in long steps: its condition is far beyond 1e7.
+  const System s = real_system({100, 2, 2}, 1e9, 1.0 / 24);
+  REQUIRE(s.A.rows() > 600);
+  const std::vector<double> loose{1e-1 * s.b.norm()}, exact{1e-6 * s.b.norm()};  // the latter in double precision alone
+  ConjugateGradientSolver solver;
+  solver.factorize(s.A);
+  Eigen::VectorXd x;
+  const LinearReport in_double = solver.solve(s.b, s.targets(exact), x),
+                     in_single = solver.solve(s.b, s.targets(loose), x);
+  REQUIRE(in_double.ok);
+  REQUIRE(in_single.ok);
+  MESSAGE(in_double.iterations << " iterations to 1e-6 in double precision, " << in_single.iterations << " to 0.1");
+  CHECK(in_single.iterations < in_double.iterations + 600);
+}
+
 TEST_CASE("a direct solve that follows iterations which cost too much is not for ever") {
   // A long bar: cheap to factorize, and far for iterations to go if it is stiff; near if it is soft.
   System stiff = real_system({60, 3, 3}, 1e9), soft = real_system({60, 3, 3}, 1e4);

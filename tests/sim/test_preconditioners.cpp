@@ -188,6 +188,7 @@ TEST_CASE("incomplete Cholesky equals A on its pattern where no pivot fails, and
     }
     K.row_start.push_back(static_cast<int>(K.column.size()));
   }
+  K.values.push_back(0);  // room at the end
   IncompleteCholesky Q;
   REQUIRE(Q.factorize(K, {}).empty());
   MESSAGE("Kershaw's matrix: shift " << Q.shift());

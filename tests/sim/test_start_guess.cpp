@@ -28,9 +28,10 @@ TEST_CASE("a guess meets motion whose acceleration changes evenly, with steps of
   StartGuess copy;
   std::vector<double> saved = guess.memory();
   saved.push_back(42);
-  CHECK(copy.restore(saved).size() == 1);
+  CHECK(copy.restore(saved, 3).size() == 1);
   CHECK(copy.memory() == guess.memory());
-  CHECK_THROWS_AS(copy.restore(std::span(saved).first(2)), std::invalid_argument);
+  CHECK_THROWS_AS(copy.restore(std::span(saved).first(2), 3), std::invalid_argument);
+  CHECK_THROWS_AS(copy.restore(saved, 6), std::invalid_argument);  // of another model
   guess.forget();
   CHECK_FALSE(guess.any());
 }
