@@ -78,7 +78,8 @@ TEST_CASE("a run that is resumed with wind, friction and damping of springs goes
     for (Vec3& v : sheet.vertices) v.y() += 0.02;
     std::vector<Spring> springs;
     for (const auto& [a, b] : edges(sheet))
-      springs.push_back({a, b, 100, (sheet.vertices[static_cast<size_t>(a)] - sheet.vertices[static_cast<size_t>(b)]).norm()});
+      springs.push_back(
+          {a, b, 100, (sheet.vertices[static_cast<size_t>(a)] - sheet.vertices[static_cast<size_t>(b)]).norm()});
     builder.add_mass_spring("sheet", sheet, springs, 0.2, 0.01);
     Collider plane;
     plane.friction = 0.5;
