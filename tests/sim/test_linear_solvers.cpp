@@ -340,6 +340,30 @@ TEST_CASE("a direct solve that follows iterations which cost too much is not for
   CHECK(solve(soft, 1e-2) == "cg");
 }
 
+TEST_CASE("auto, restored after it was used for something else, does what a fresh one does") {
+  System hard = real_system({60, 3, 3}, 1e9), easy = real_system({60, 3, 3}, 1e4);
+  const std::unique_ptr<LinearSolver> fresh = make_linear_solver("auto"), used = make_linear_solver("auto");
+  const auto solve = [](LinearSolver& solver, System& s, double relative, Eigen::VectorXd& x) {
+    const std::vector<double> wanted{relative * s.b.norm()};
+    solver.factorize(s.A);
+    return solver.solve(s.b, s.targets(wanted), x);
+  };
+  Eigen::VectorXd x, y;
+  fresh->analyse(easy.A);
+  used->analyse(easy.A);
+  const std::vector<double> memory = fresh->memory();
+  solve(*used, hard, 1e-10, x);  // factorizes
+  REQUIRE(used->memory() != memory);
+  used->restore(memory);
+  for (int i = 0; i < 3; ++i) {
+    const LinearReport a = solve(*fresh, easy, 1e-3, x), b = solve(*used, easy, 1e-3, y);
+    CHECK(a.chosen == b.chosen);
+    CHECK(a.iterations == b.iterations);
+    CHECK(x == y);
+    CHECK(fresh->memory() == used->memory());
+  }
+}
+
 TEST_CASE("the choice of auto is restored with its memory") {
   const System s = real_system(8, 1e5);
   AutoSolver first;
