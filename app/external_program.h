@@ -1,7 +1,9 @@
 #pragma once
 // Other programs, started without a shell.
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace softreel::app {
@@ -31,6 +33,15 @@ class PipeTo {
  private:
   std::function<void()> check_;
   int pid_ = -1, input_ = -1, errors_ = -1;
+};
+
+/// A file that a program writes under a temporary name: gone at the end of the scope, unless it was renamed before.
+struct RemovedAtEnd {
+  const std::filesystem::path& file;
+  ~RemovedAtEnd() {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  }
 };
 
 }  // namespace softreel::app

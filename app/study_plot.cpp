@@ -252,13 +252,7 @@ bool draw_plot(const StudyPlot& plot, const std::filesystem::path& folder) {
                   "background \"#ffffff\""}}) {
     const std::filesystem::path file = folder / (plot.name + ending);
     const std::filesystem::path temporary = folder / fmt::format(".{}.{}{}", plot.name, getpid(), ending);
-    struct Remove {
-      const std::filesystem::path& file;
-      ~Remove() {
-        std::error_code ignored;
-        std::filesystem::remove(file, ignored);
-      }
-    } const remove{temporary};
+    const RemovedAtEnd removed{temporary};
     PipeTo gnuplot({"gnuplot"}, stop_if_interrupted);
     const std::string script =
         fmt::format("set terminal {}\nset output {}\n{}", terminal, text(temporary.string()), plot.script);

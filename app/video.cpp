@@ -39,13 +39,7 @@ void write_video(const std::filesystem::path& video, const std::vector<std::file
   // The temporary name keeps the extension: ffmpeg takes the container from it.
   const std::filesystem::path temporary =
       video.parent_path() / fmt::format(".{}.{}{}", video.stem().string(), getpid(), video.extension().string());
-  struct Remove {
-    const std::filesystem::path& file;
-    ~Remove() {
-      std::error_code ignored;
-      std::filesystem::remove(file, ignored);
-    }
-  } const remove{temporary};
+  const RemovedAtEnd removed{temporary};
   std::vector<std::string> arguments = {
       "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f", "image2pipe", "-c:v", "png", "-framerate",
       fmt::format("{:.10g}", fps), "-i", "pipe:0", "-vf",
