@@ -26,21 +26,28 @@ double AutoSolver::iteration_work() const {
 }
 
 double AutoSolver::cholesky_work() {
-  if (!cholesky_.analysed()) cholesky_.analyse(*A_);
-  return kPerFlop * cholesky_.factor_flops() + kPerFactorNonzero * cholesky_.factor_nonzeros();
+  // A pattern that changes a little with every contact is not counted anew: that would cost more than it tells.
+  if (work_ == 0) {
+    analyse_factor();
+    work_ = kPerFlop * cholesky_.factor_flops() + kPerFactorNonzero * cholesky_.factor_nonzeros();
+  }
+  return work_;
 }
 
 void AutoSolver::analyse(const BlockMatrix& A) {
   A_ = &A;
-  direct_ = false;
-  if (A.rows() <= kSmall) cholesky_.analyse(A);
+  current_ = false;
+}
+
+void AutoSolver::analyse_factor() {
+  if (!current_) cholesky_.analyse(*A_);
+  current_ = true;
 }
 
 void AutoSolver::factorize(const BlockMatrix& A) { A_ = &A; }
 
 /// Iterations that cost as much as a factorization.
 long AutoSolver::affordable() {
-  counted_ = true;
   return std::max(10L, static_cast<long>(cholesky_work() / iteration_work()));
 }
 
@@ -60,10 +67,10 @@ LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& ta
 LinearReport AutoSolver::iterate(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
   constexpr long kCheap = 60;
   cg_.factorize(*A_);
-  cg_.set_max_iterations(counted_ ? affordable() : kCheap);
+  cg_.set_max_iterations(work_ > 0 ? affordable() : kCheap);
   LinearReport report = cg_.solve(b, targets, x);
   long spent = 0;
-  if (!report.ok && !report.indefinite && !counted_ && affordable() > kCheap) {
+  if (!report.ok && !report.indefinite && work_ == 0 && affordable() > kCheap) {
     spent = report.iterations;
     cg_.set_max_iterations(affordable());
     report = cg_.solve(b, targets, x);
@@ -88,7 +95,7 @@ void AutoSolver::judge(const LinearReport& report) {
 }
 
 LinearReport AutoSolver::factor(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
-  if (!cholesky_.analysed()) cholesky_.analyse(*A_);
+  analyse_factor();
   cholesky_.factorize(*A_);
   return cholesky_.solve(b, targets, x);
 }
@@ -96,8 +103,7 @@ LinearReport AutoSolver::factor(const Eigen::VectorXd& b, const LinearTargets& t
 std::size_t AutoSolver::bytes() const { return cg_.bytes() + (cholesky_.analysed() ? cholesky_.bytes() : 0); }
 
 std::vector<double> AutoSolver::memory() const {
-  return {direct_ ? 1.0 : 0.0, static_cast<double>(direct_solves_), static_cast<double>(pause_), mean_,
-          counted_ ? 1.0 : 0.0};
+  return {direct_ ? 1.0 : 0.0, static_cast<double>(direct_solves_), static_cast<double>(pause_), mean_, work_};
 }
 
 void AutoSolver::restore(std::span<const double> saved) {
@@ -106,7 +112,7 @@ void AutoSolver::restore(std::span<const double> saved) {
   direct_solves_ = static_cast<long>(saved[1]);
   pause_ = static_cast<long>(saved[2]);
   mean_ = saved[3];
-  counted_ = saved[4] != 0;
+  work_ = saved[4];
 }
 
 }  // namespace softreel::sim

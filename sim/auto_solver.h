@@ -16,6 +16,7 @@ class AutoSolver final : public LinearSolver {
   void restore(std::span<const double> saved) override;
 
  private:
+  void analyse_factor();
   double cholesky_work();
   double iteration_work() const;
   long affordable();
@@ -26,7 +27,8 @@ class AutoSolver final : public LinearSolver {
   const BlockMatrix* A_ = nullptr;
   CholeskySolver cholesky_;
   ConjugateGradientSolver cg_;
-  bool counted_ = false;  // what a factorization costs is known; not whether the factor is analysed, which no run saves
+  bool current_ = false;  // the factor is analysed for the pattern of A_
+  double work_ = 0;       // of a factorization, as counted when it was last looked at; 0: never
   bool direct_ = false;   // iterations are too expensive at present
   long direct_solves_ = 0;  // since they were last tried
   long pause_ = 0;          // direct ones until they are tried again

@@ -11,6 +11,8 @@ struct BlockMatrix {
   std::vector<int> diagonal;   ///< position of block (i, i)
   std::vector<double> values;  ///< 9 doubles per block, column-major; room for one more at the end
 
+  long pattern = 0;            ///< another number, another sparsity pattern
+
   int rows() const { return static_cast<int>(diagonal.size()); }  ///< block rows n
   Eigen::Map<Eigen::Matrix3d> block(int k) { return Eigen::Map<Eigen::Matrix3d>(values.data() + 9 * size_t(k)); }
   Eigen::Map<const Eigen::Matrix3d> block(int k) const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/collider_contact.h"
+#include "sim/friction_law.h"
 #include "sim/parallel.h"
 
 namespace softreel::sim {
@@ -11,7 +12,7 @@ namespace {
 class ColliderFriction final : public EnergyTerm {
  public:
   ColliderFriction(const ColliderContact& contact, double slip_speed)
-      : contact_(contact), slip_speed_(slip_speed), touches_of_(contact.stencils().size() + 1, 0) {}
+      : contact_(contact), law_{slip_speed}, touches_of_(contact.stencils().size() + 1, 0) {}
 
   std::string_view name() const override { return "friction"; }
   EnergyKind kind() const override { return EnergyKind::kDissipation; }
@@ -49,8 +50,7 @@ class ColliderFriction final : public EnergyTerm {
     return parallel_sum(vertices(), Work::kRow, [&](int i) {
       double sum = 0;
       visit(i, [&](const Touch& touch) {
-        const double u = slip(touch, v, i).norm(), e = slip_speed_;
-        sum += touch.limit * (u < e ? u * u / e - u * u * u / (3 * e * e) : u - e / 3);
+        sum += touch.limit * law_.value(slip(touch, v, i).norm());
       });
       return sum;
     });
@@ -61,7 +61,7 @@ class ColliderFriction final : public EnergyTerm {
       double sum = 0;
       visit(i, [&](const Touch& touch) {
         const double u = slip(touch, v, i).norm();
-        sum += touch.limit * over_speed(u) * u * u;
+        sum += touch.limit * law_.over_speed(u) * u * u;
       });
       return sum;
     });
@@ -71,35 +71,18 @@ class ColliderFriction final : public EnergyTerm {
     parallel_for(vertices(), Work::kRow, [&](int i) {
       visit(i, [&](const Touch& touch) {
         const Eigen::Vector3d u = slip(touch, v, i);
-        gradient.segment<3>(3 * i) += touch.limit * over_speed(u.norm()) * u;
+        gradient.segment<3>(3 * i) += touch.limit * law_.over_speed(u.norm()) * u;
       });
     });
   }
 
-  // f'(u)/u (T - uu^T/u^2) + f''(u) uu^T/u^2, both parts positive semi-definite. f'' falls from 2/slip_speed to 0
-  // within slip_speed, so a Newton step that starts in slip knows nothing of the stick it may run across, leaps to the
-  // other side, and comes back the same way. Touches that a proposed step would turn around are modelled by their stick
-  // branch, u^2/slip_speed, instead: they end up in it, and if they should slip after all, Newton's method leaves it
-  // monotonically (f' is concave).
   void element_hessians(const Eigen::VectorXd& v, double scale, Definiteness, StencilRange range,
                         double* blocks) const override {
     for (int i = range.first; i < range.first + range.count; ++i, blocks += 9) {
       Eigen::Map<Eigen::Matrix3d> block(blocks);
       block.setZero();
       visit(i, [&](const Touch& touch) {
-        const Eigen::Vector3d u = slip(touch, v, i);
-        const double speed = u.norm();
-        Eigen::Matrix3d D = Eigen::Matrix3d::Identity() - touch.normal * touch.normal.transpose();
-        if (touch.stuck) {
-          D *= 2 / slip_speed_;
-        } else {
-          D *= over_speed(speed);
-          if (speed > 0) {
-            const double second = speed < slip_speed_ ? 2 / slip_speed_ * (1 - speed / slip_speed_) : 0.0;
-            D += (second - over_speed(speed)) / (speed * speed) * u * u.transpose();
-          }
-        }
-        block += scale * touch.limit * D;
+        block += scale * touch.limit * law_.hessian(touch.normal, slip(touch, v, i), touch.stuck);
       });
     }
   }
@@ -113,7 +96,7 @@ class ColliderFriction final : public EnergyTerm {
         const Eigen::Vector3d u = slip(touch, v, i);
         Eigen::Vector3d du = dv.segment<3>(3 * i);
         du -= touch.normal.dot(du) * touch.normal;
-        if (u.norm() > slip_speed_ && u.dot(u + du) < 0) any = touch.stuck = true;
+        if (law_.turned(u, du)) any = touch.stuck = true;
       }
     return any;
   }
@@ -123,7 +106,7 @@ class ColliderFriction final : public EnergyTerm {
       visit(i, [&](const Touch& touch) {
         if (!touch.stuck) return;
         const Eigen::Vector3d u = slip(touch, v, i);
-        gradient.segment<3>(3 * i) += touch.limit * (2 / slip_speed_ - over_speed(u.norm())) * u;
+        gradient.segment<3>(3 * i) += touch.limit * law_.excess(u.norm()) * u;
       });
     });
   }
@@ -150,11 +133,9 @@ class ColliderFriction final : public EnergyTerm {
     const Eigen::Vector3d relative = v.segment<3>(3 * i) - touch.velocity;
     return relative - touch.normal.dot(relative) * touch.normal;
   }
-  /// f'(u)/u
-  double over_speed(double u) const { return u < slip_speed_ ? (2 - u / slip_speed_) / slip_speed_ : 1 / u; }
 
   const ColliderContact& contact_;
-  double slip_speed_;            // [m/s]
+  FrictionLaw law_;
   std::vector<Touch> touches_;   // by vertex, then collider
   std::vector<int> touches_of_;  // vertices + 1 offsets
 };

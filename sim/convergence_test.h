@@ -29,6 +29,9 @@ class ConvergenceTest {
   /// Takes the scale of rounding from the matrix where the iteration is, contact and damping included.
   void see_hessian(const BlockMatrix& H, const Eigen::VectorXd& y);
 
+  /// Forgets what has fired, not what tolerances are relative to.
+  void restart() { fired_ = {}; }
+
   /// Looks at the gradient where the iteration is. Returns what is wrong with it, or nothing.
   std::string look(const Eigen::VectorXd& g);
   /// Looks at a direction that is about to be taken; slope = g.d < 0.

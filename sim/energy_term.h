@@ -37,7 +37,8 @@ struct StepContext {
 /// A scalar function of a stacked vector q (3n): a potential E(x) [J] of the positions, or a dissipation potential
 /// D(v) [W] of the velocities. Virtual once per term, never per element.
 ///
-/// Its Hessian is a sum over small stencils of vertices. The stencils stay what they are for the life of the term.
+/// Its Hessian is a sum over small stencils of vertices. The stencils stay what they are for the life of the term, but
+/// for terms that say otherwise (contact between surfaces).
 class EnergyTerm {
  public:
   virtual ~EnergyTerm() = default;
@@ -63,8 +64,11 @@ class EnergyTerm {
 
   /// Vertices per stencil k (1 to kMostVertices); 0 for a term without a Hessian (a linear function).
   virtual int stencil_size() const { return 0; }
-  /// Vertex indices, k per stencil.
+  /// Vertex indices, k per stencil; -1 (with changing stencils only): not a vertex of the state, nothing is added there.
   virtual std::span<const int> stencils() const { return {}; }
+  /// True if the stencils depend on the positions; `select` then makes them those of q.
+  virtual bool changing_stencils() const { return false; }
+  virtual void select(const Eigen::VectorXd& q) const { static_cast<void>(q); }
   /// True if the element Hessians never change: they are computed once.
   virtual bool constant_hessian() const { return false; }
 
@@ -88,12 +92,6 @@ class EnergyTerm {
     static_cast<void>(q), static_cast<void>(gradient);
   }
   virtual void soften() {}
-
-  /// The largest step s in (0, 1] along q + s dq that this term allows (nothing may pass through).
-  virtual double max_step(const Eigen::VectorXd& q, const Eigen::VectorXd& dq) const {
-    static_cast<void>(q), static_cast<void>(dq);
-    return 1.0;
-  }
 };
 
 /// Doubles that one stencil of k vertices writes in element_hessians.

@@ -26,6 +26,8 @@ class ImplicitMethod {
   virtual ~ImplicitMethod() = default;
   /// Where in the step y lies: y = x + fraction (x' - x). Forces are taken there.
   virtual double fraction() const { return 1; }
+  /// Is x' = y? Then a step is as free of crossings as its solve.
+  virtual bool ends_at_solution() const { return fraction() == 1; }
   /// Fills `stage` for a step of length h [s] from `state`.
   virtual void predict(const State& state, double h, const Acceleration& acceleration, Stage& stage) = 0;
   /// Makes `state` the one at t + h, from the minimizer y.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/contact/surface_contact.h"
 #include "sim/parallel.h"
 #include "sim/stiffness_scale.h"
 #include "sim/stopwatch.h"
@@ -11,9 +12,9 @@ namespace {
 
 std::vector<const EnergyTerm*> all_terms(const Model& model) {
   std::vector<const EnergyTerm*> terms;
-  for (const auto& t : model.potentials) terms.push_back(t.get());
-  for (const auto& t : model.dissipations) terms.push_back(t.get());
-  for (const auto& t : model.mass_corrections) terms.push_back(t.get());
+  for (const auto* list : {&model.potentials, &model.dissipations, &model.mass_corrections})
+    for (const auto& t : *list)
+      if (!t->changing_stencils()) terms.push_back(t.get());
   return terms;
 }
 
@@ -82,15 +83,63 @@ void IncrementalPotential::gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g
 void IncrementalPotential::hessian(const Eigen::VectorXd& y, Definiteness definiteness, BlockMatrix& H,
                                    StepReport& report) {
   const Stopwatch watch(report.seconds.assemble);
-  set_velocity(y);
-  std::vector<ScaledTerm> terms;
-  for (const auto& t : model_.potentials) terms.push_back({t.get(), &y, stage_.beta});
-  for (const auto& t : model_.dissipations) terms.push_back({t.get(), &velocity_, stage_.beta * stage_.a});
-  for (const auto& t : model_.mass_corrections) terms.push_back({t.get(), &y, stage_.inertia});
   const long before = assembler_.evaluations();
-  static const Eigen::VectorXd kNone;
-  assembler_.assemble(terms, stage_.inertia > 0 ? model_.masses : kNone, pins_.fixed(), definiteness, H);
+  assemble(y, definiteness, pins_.fixed(), H);
   report.hessians += assembler_.evaluations() - before;
+}
+
+void IncrementalPotential::assemble(const Eigen::VectorXd& y, Definiteness definiteness,
+                                    const std::vector<std::uint8_t>& held, BlockMatrix& H) {
+  set_velocity(y);
+  std::vector<ScaledTerm> fixed, changing;
+  const auto add = [&](const auto& terms, const Eigen::VectorXd& at, double scale) {
+    for (const auto& t : terms) (t->changing_stencils() ? changing : fixed).push_back({t.get(), &at, scale});
+  };
+  add(model_.potentials, y, stage_.beta);
+  add(model_.dissipations, velocity_, stage_.beta * stage_.a);
+  add(model_.mass_corrections, y, stage_.inertia);
+  static const Eigen::VectorXd kNone;
+  const Eigen::VectorXd& masses = stage_.inertia > 0 ? model_.masses : kNone;
+  if (changing.empty()) return assembler_.assemble(fixed, masses, held, definiteness, H);
+  assembler_.assemble(fixed, masses, held, definiteness, fixed_part_);
+  changing_.add(fixed_part_, changing, held, definiteness, H);
+}
+
+void IncrementalPotential::drive_to(const Eigen::VectorXd& target, double progress) {
+  progress_ = progress;
+  short_steps_ = 0;
+  if (progress < 1) target_ = target;
+  if (model_.surfaces) model_.surfaces->set_progress(progress);
+}
+
+void IncrementalPotential::driven(double share) {
+  progress_ = share < 1 ? progress_ + share * (1 - progress_) : 1;
+  if (model_.surfaces) model_.surfaces->set_progress(progress_);
+}
+
+void IncrementalPotential::set_remaining(const Eigen::VectorXd& y, Eigen::VectorXd& d) const {
+  const auto& held = pins_.fixed();
+  for (Eigen::Index i = 0; i < d.size(); ++i)
+    if (held[static_cast<size_t>(i)]) d(i) = target_(i) - y(i);
+}
+
+void IncrementalPotential::driven_force(const Eigen::VectorXd& y, Eigen::VectorXd& force, StepReport& report) {
+  force.setZero(y.size());
+  if (pins_.any()) {
+    const Stopwatch watch(report.seconds.assemble);
+    BlockMatrix whole;
+    assemble(y, Definiteness::kClamped, std::vector<std::uint8_t>(pins_.fixed().size(), 0), whole);
+    Eigen::VectorXd move = Eigen::VectorXd::Zero(y.size());
+    set_remaining(y, move);
+    whole.multiply(move, force);
+  }
+  if (model_.surfaces) {
+    const Stopwatch watch(report.seconds.contact);
+    Eigen::VectorXd scripted = Eigen::VectorXd::Zero(y.size());
+    model_.surfaces->add_driven_force(y, scripted);
+    force += stage_.beta * scripted;
+  }
+  pins_.zero(force);
 }
 
 bool IncrementalPotential::harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) {
@@ -114,9 +163,11 @@ void IncrementalPotential::soften() {
   for (const auto& t : model_.dissipations) t->soften();
 }
 
-double IncrementalPotential::max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const {
-  double step = 1;
-  for (const auto& t : model_.potentials) step = std::min(step, t->max_step(y, dy));
+double IncrementalPotential::max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy, StepReport& report) {
+  if (!model_.surfaces) return 1;  // the only one that limits steps
+  const Stopwatch watch(report.seconds.contact);
+  const double step = model_.surfaces->max_step(y, dy);
+  short_steps_ = step < kShortStep ? short_steps_ + 1 : 0;
   return step;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/changing_blocks.h"
 #include "sim/hessian_assembler.h"
 #include "sim/implicit_method.h"
 #include "sim/mass.h"
@@ -16,6 +17,8 @@ class IncrementalPotential {
   /// Builds the sparsity pattern. `model` and `pins` must outlive this.
   IncrementalPotential(const Model& model, const Pins& pins);
 
+  /// Before each solve.
+  void begin() { changing_.begin(); }
   Stage& stage() { return stage_; }
   const Stage& stage() const { return stage_; }
   MassMatrix& mass() { return mass_; }
@@ -25,7 +28,8 @@ class IncrementalPotential {
   /// g = dPhi/dy, 3n [kg m]; zero where held.
   void gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g, StepReport& report);
 
-  /// Hessian [kg], of elements as `definiteness` says; identity where held.
+  /// Hessian [kg], of elements as `definiteness` says; identity where held. Its pattern changes with contact between
+  /// surfaces.
   void hessian(const Eigen::VectorXd& y, Definiteness definiteness, BlockMatrix& H, StepReport& report);
 
   /// Offers the step dy from y to all terms; true if some have changed their Hessians because of it.
@@ -35,8 +39,22 @@ class IncrementalPotential {
   /// Takes such changes back.
   void soften();
 
-  /// Largest step along dy that no term forbids, in (0, 1].
-  double max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const;
+  /// Largest step along dy on which nothing passes through, in [0, 1].
+  double max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy, StepReport& report);
+
+  /// What is held or scripted has gone only `progress` of its way to `target` (3n, read where held), because something
+  /// stood in it: a minimizer takes it the rest of the way, together with what it pushes.
+  void drive_to(const Eigen::VectorXd& target, double progress);
+  /// Is there a rest of the way?
+  bool driving() const { return progress_ < 1; }
+  /// Takes everything a share of the step d along, which `add_remaining` has completed.
+  void driven(double share);
+  /// d of what is held := the rest of its way from y.
+  void set_remaining(const Eigen::VectorXd& y, Eigen::VectorXd& d) const;
+  /// force := the change of the gradient at y when what is held and scripted goes the rest of its way; zero where held.
+  void driven_force(const Eigen::VectorXd& y, Eigen::VectorXd& force, StepReport& report);
+  /// Have many steps in a row been cut to next to nothing?
+  bool blocked() const { return short_steps_ >= kMostShortSteps; }
 
   /// 3n flags of what pins hold.
   const std::vector<std::uint8_t>& held() const { return pins_.fixed(); }
@@ -46,14 +64,22 @@ class IncrementalPotential {
 
  private:
   bool damped() const;
+  void assemble(const Eigen::VectorXd& y, Definiteness definiteness, const std::vector<std::uint8_t>& held,
+                BlockMatrix& H);
   void set_velocity(const Eigen::VectorXd& y);
 
   const Model& model_;
   const Pins& pins_;
   MassMatrix mass_;
   HessianAssembler assembler_;
+  BlockMatrix fixed_part_;  // with changing stencils: what the others give
+  ChangingBlocks changing_;
   Stage stage_;
-  Eigen::VectorXd velocity_, offset_, stiffness_;
+  Eigen::VectorXd velocity_, offset_, stiffness_, target_;
+  double progress_ = 1;
+  static constexpr int kMostShortSteps = 8;
+  static constexpr double kShortStep = 0.02;
+  int short_steps_ = 0;
 };
 
 }  // namespace softreel::sim

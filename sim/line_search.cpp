@@ -61,7 +61,7 @@ bool LineSearch::acceptable(const Eigen::VectorXd& d, const Start& start, double
 
 double LineSearch::backtrack(const Eigen::VectorXd& d, const Start& start, double first, Eigen::VectorXd& y,
                              StepReport& report) {
-  for (double step = phi_.max_step(y, first * d) * first; step > kShortestStep * first; step *= 0.5) {
+  for (double step = phi_.max_step(y, first * d, report) * first; step > kShortestStep * first; step *= 0.5) {
     trial_ = y + step * d;
     if (!acceptable(d, start, step, report)) continue;
     y.swap(trial_);
@@ -80,14 +80,14 @@ double LineSearch::slope_at(const Eigen::VectorXd& y, const Eigen::VectorXd& d, 
 double LineSearch::exact(const Eigen::VectorXd& d, const Start& start, double first, const Eigen::VectorXd& y,
                          StepReport& report) {
   double lo = 0, lo_slope = start.slope;
-  double hi = phi_.max_step(y, first * d) * first;
+  double hi = phi_.max_step(y, first * d, report) * first;
   const double limit = hi < first ? hi : kFarthest * first;  // a step cut by max_step goes no further
   double hi_slope = slope_at(y, d, hi, report);
   int evaluations = 1;
   while (hi_slope < 0 && hi < limit) {
     lo = hi, lo_slope = hi_slope;
     hi = std::min(2 * hi, limit);
-    if (phi_.max_step(y, hi * d) < 1) return lo;
+    if (phi_.max_step(y, hi * d, report) < 1) return lo;
     hi_slope = slope_at(y, d, hi, report);
     if (++evaluations == kMostEvaluations) return lo;
   }

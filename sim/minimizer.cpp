@@ -40,6 +40,8 @@ constexpr std::array kMinimizers = {
           }},
 };
 
+constexpr const char* kBlocked = "contact lets nothing move";
+
 }  // namespace
 
 Minimizer::Minimizer(const Model& model, IncrementalPotential& phi, const MinimizerSettings& settings)
@@ -53,6 +55,7 @@ void Minimizer::minimize(Eigen::VectorXd& y, const Eigen::VectorXd* guess, StepR
 }
 
 void Minimizer::run(Eigen::VectorXd& y, const Eigen::VectorXd* guess, StepReport& report, Failure& failure) {
+  phi_.begin();
   failure = begin();
   if (!failure.empty()) return;
   phi_.gradient(y, g_, report);
@@ -63,6 +66,15 @@ void Minimizer::run(Eigen::VectorXd& y, const Eigen::VectorXd* guess, StepReport
       y = *guess;
       g_.swap(guess_gradient_);
     }
+  }
+  for (int iteration = 0; phi_.driving(); ++iteration) {
+    failure = test_.look(g_);
+    if (failure.empty() && iteration == max_iterations_) failure = "what is driven did not arrive";
+    if (failure.empty()) failure = drive(y, report);
+    if (failure.empty() && phi_.blocked()) failure = kBlocked;
+    if (!failure.empty()) return;
+    phi_.gradient(y, g_, report);
+    test_.restart();
   }
   for (int iteration = 0;; ++iteration) {
     const bool stop_after_step = !test_.fired().empty();
@@ -82,9 +94,14 @@ void Minimizer::run(Eigen::VectorXd& y, const Eigen::VectorXd* guess, StepReport
       return;
     }
     failure = advance(iteration, y, report);
+    if (failure.empty() && phi_.blocked()) failure = kBlocked;
     if (!failure.empty()) return;
     phi_.gradient(y, g_, report);
   }
+}
+
+Minimizer::Failure Minimizer::drive(Eigen::VectorXd&, StepReport&) {
+  return std::string(title()) + " cannot take what is driven through contact; Newton's method can";
 }
 
 Catalogue minimizers() { return catalogue_of<kMinimizers>(); }

@@ -39,6 +39,8 @@ class Minimizer {
   virtual Failure begin() { return {}; }
   /// One iteration from y, where the gradient is g_: moves y, shows test_ how it went, counts in `report`.
   virtual Failure advance(int iteration, Eigen::VectorXd& y, StepReport& report) = 0;
+  /// One iteration that takes what is held the rest of its way (IncrementalPotential::driving), as `advance`.
+  virtual Failure drive(Eigen::VectorXd& y, StepReport& report);
   /// After a solve that converged.
   virtual void end() {}
   /// What to tell instead of `failure`, that forces are not finite.

@@ -34,6 +34,12 @@ void Pins::drive(double t, Eigen::VectorXd& v) const {
     }
 }
 
+bool Pins::move(double from, double to) const {
+  return std::any_of(model_.pins.begin(), model_.pins.end(), [&](const Pin& pin) {
+    return !pin.motion.still() && pin.motion.pose(from).matrix() != pin.motion.pose(to).matrix();
+  });
+}
+
 double Pins::turn(double from, double to) const {
   double most = 0;
   for (const Pin& pin : model_.pins) most = std::max(most, pin.motion.turn(from, to));

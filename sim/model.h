@@ -12,6 +12,7 @@
 namespace softreel::sim {
 
 class ColliderContact;
+class SurfaceContact;
 
 /// Vertices that are held, or driven along a scripted motion.
 struct Pin {
@@ -30,6 +31,8 @@ struct Model {
   std::vector<std::unique_ptr<EnergyTerm>> mass_corrections;  ///< of bodies with consistent mass (mass.h)
   const ColliderContact* contact = nullptr;                   ///< the one among the potentials, if any
 
+  SurfaceContact* surfaces = nullptr;                         ///< contact between surfaces, among the potentials
+
   int vertices() const { return static_cast<int>(masses.size()); }
 };
 
@@ -45,6 +48,8 @@ class Pins {
   void place(double t, Eigen::VectorXd& x) const;
   /// v of every held degree of freedom := its scripted velocity at time t, from before where it jumps.
   void drive(double t, Eigen::VectorXd& v) const;
+  /// Does any of them move between two times?
+  bool move(double from, double to) const;
   /// The farthest that any pin turns between two times [deg].
   double turn(double from, double to) const;
   /// vector of every held degree of freedom := 0.

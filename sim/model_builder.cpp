@@ -5,6 +5,7 @@
 
 #include "sim/bending.h"
 #include "sim/body_forces.h"
+#include "sim/contact/surface_contact.h"
 #include "sim/mass.h"
 #include "sim/membrane.h"
 #include "sim/solid.h"
@@ -132,6 +133,19 @@ Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vec
     m.contact = contact.get();
     if (rough) m.dissipations.push_back(make_collider_friction(*contact, settings.slip_speed));
     m.potentials.push_back(std::move(contact));
+  }
+  if (!surfaces_.empty()) {
+    auto surfaces = std::make_unique<const ContactSurfaces>(surfaces_, surface_rules_);
+    if (surfaces->any()) {
+      const bool rough = std::any_of(surfaces->pairs.begin(), surfaces->pairs.end(),
+                                     [](const SurfacePair& pair) { return pair.friction > 0; });
+      auto contact = std::make_unique<SurfaceContact>(
+          std::move(surfaces), m.masses, stiffness(),
+          SurfaceContactSettings{settings.distance, settings.stiffness, settings.hardness});
+      m.surfaces = contact.get();
+      if (rough) m.dissipations.push_back(make_surface_friction(*contact, settings.slip_speed));
+      m.potentials.push_back(std::move(contact));
+    }
   }
   Model built = std::move(model_);
   *this = ModelBuilder();

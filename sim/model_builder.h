@@ -8,6 +8,7 @@
 
 #include "sim/attachment.h"
 #include "sim/collider_contact.h"
+#include "sim/contact/contact_surfaces.h"
 #include "sim/load.h"
 #include "sim/mesh.h"
 #include "sim/model.h"
@@ -64,6 +65,12 @@ class ModelBuilder {
   /// Wind on `surfaces`; [damping] drag is relative to it.
   void set_wind(const Wind& wind, std::vector<WindSurface> surfaces);
 
+  /// Surfaces that touch each other, in the places where bodies were added; [contact] comes with `finish`.
+  void set_surfaces(std::vector<SurfaceInput> surfaces, std::vector<SurfacePairRule> rules) {
+    surfaces_ = std::move(surfaces);
+    surface_rules_ = std::move(rules);
+  }
+
   /// Of the bodies added so far: masses, n [kg], positions, 3n [m], and how stiff they are (stiffness_scale), n [N/m].
   Eigen::VectorXd masses() const;
   Eigen::VectorXd positions() const;
@@ -86,6 +93,8 @@ class ModelBuilder {
   std::vector<std::unique_ptr<EnergyTerm>> loads_;
   std::optional<Wind> wind_;
   std::vector<WindSurface> wind_surfaces_;
+  std::vector<SurfaceInput> surfaces_;
+  std::vector<SurfacePairRule> surface_rules_;
 };
 
 }  // namespace softreel::sim

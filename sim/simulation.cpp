@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/contact/surface_contact.h"
 #include "sim/stopwatch.h"
 
 namespace softreel::sim {
@@ -80,6 +81,13 @@ StepReport Simulation::attempt(double h) {
     implicit_step(h, report);
   else
     explicit_step(h, report);
+  if (report.converged && model_.surfaces && !(implicit() && method_.implicit_method->ends_at_solution())) {
+    const Stopwatch watch(report.seconds.contact);
+    if (!model_.surfaces->way_is_free(before.x, before.t, state_.x, state_.t)) {
+      report.converged = false;
+      report.reason = model_.surfaces->blocking() + " would pass through each other";
+    }
+  }
   if (report.converged) {
     const double farthest = (state_.x - before.x).cwiseAbs().maxCoeff();
     if (!state_.x.allFinite() || !state_.v.allFinite() || !(farthest < kRunaway * extent_)) {
@@ -161,22 +169,28 @@ void Simulation::implicit_step(double h, StepReport& report) {
     pins_.place(end, y);
     y = state_.x + fraction * (y - state_.x);
   };
-  // Two places to start from: where the vertices are and where they are heading. The lower of the two is nearer: in
-  // free motion the second, before an impact the first.
   Eigen::VectorXd y = predicted_;
   place(y);
-  if (model_.contact && !still) {
+  const Eigen::VectorXd target = y;
+  const double progress = model_.surfaces ? start_of_solve(end, y, report) : 1;
+  // Two places to start from: where the vertices are and where they are heading. The lower of the two is nearer: in
+  // free motion the second, before an impact the first. What is driven through contact has to come along.
+  if ((model_.contact || (model_.surfaces && !driven_)) && !still) {
     Eigen::VectorXd here = state_.x;
     place(here);
     if (phi_->value(here, report) < phi_->value(y, report)) y.swap(here);
   }
   const Stage& stage = phi_->stage();
-  const bool guessed = !still && start_guess_.any();
+  bool guessed = !still && start_guess_.any();
   if (guessed) {
     start_guess_.guess(stage, h, guess_);
     place(guess_);
+    if (model_.surfaces) {
+      const Stopwatch watch(report.seconds.contact);
+      guessed = progress == 1 && model_.surfaces->max_step(state_.x, guess_ - state_.x) == 1;
+    }
   }
-  minimizer_->minimize(y, guessed ? &guess_ : nullptr, report);
+  solve(target, progress, guessed ? &guess_ : nullptr, y, report);
   if (!report.converged) return;
   if (!still) start_guess_.accept(stage, h, y);
   method.finish(y, h, state_);
@@ -184,6 +198,43 @@ void Simulation::implicit_step(double h, StepReport& report) {
     pins_.place(end, state_.x);
     if (!still) pins_.drive(end, state_.v);
   }
+}
+
+/// With contact between surfaces a solve may only begin where nothing was jumped over on the way there: cuts the way to y.
+/// Returns the share of it that is left; `end` of the step [s].
+double Simulation::start_of_solve(double end, Eigen::VectorXd& y, StepReport& report) {
+  const Stopwatch watch(report.seconds.contact);
+  SurfaceContact& surfaces = *model_.surfaces;
+  driven_ = surfaces.colliders_move() || pins_.move(state_.t, end);
+  surfaces.set_progress(0);
+  const double share = surfaces.max_step(state_.x, y - state_.x);
+  if (share < 1) y = state_.x + share * (y - state_.x);
+  const double progress = driven_ ? share : 1;
+  surfaces.set_progress(progress);
+  return progress;
+}
+
+/// Goes from y to the minimum. Contact that gives way too far is stiffened, and the solve taken again from its start.
+void Simulation::solve(const Eigen::VectorXd& target, double progress, const Eigen::VectorXd* guess, Eigen::VectorXd& y,
+                       StepReport& report) {
+  SurfaceContact* surfaces = model_.surfaces;
+  if (!surfaces) return minimizer_->minimize(y, guess, report);
+  const Eigen::VectorXd start = y;
+  while (true) {
+    y = start;
+    phi_->drive_to(target, progress);
+    minimizer_->minimize(y, guess, report);
+    guess = nullptr;  // it was one for softer contact
+    const bool stiffened = report.converged ? surfaces->stiffen_near(y) : phi_->blocked() && surfaces->stiffen_blocking();
+    if (!stiffened) break;
+    ++report.stiffenings;
+  }
+  if (report.converged) return;
+  if (surfaces->at_bound())
+    report.reason = surfaces->blocking() + " are pressed together harder than contact can hold: what is driven (pins, " +
+                    "colliders with a motion) leaves them no room";
+  else if (phi_->blocked())
+    report.reason += ": " + surfaces->blocking();
 }
 
 void Simulation::explicit_step(double h, StepReport& report) {
@@ -212,6 +263,10 @@ std::vector<double> Simulation::memory() const {
       implicit() ? method_.implicit_method->memory() : method_.explicit_method->memory();
   std::vector<double> saved{dissipated_, static_cast<double>(history.size())};
   saved.insert(saved.end(), history.begin(), history.end());
+  if (model_.surfaces) {
+    const std::vector<double> contact = model_.surfaces->memory();
+    saved.insert(saved.end(), contact.begin(), contact.end());
+  }
   if (minimizer_) {
     const std::vector<double> guess = start_guess_.memory();
     saved.insert(saved.end(), guess.begin(), guess.end());
@@ -232,7 +287,9 @@ void Simulation::restore(const State& state, std::span<const double> memory) {
     method_.implicit_method->restore(memory.subspan(2, history));
   else
     method_.explicit_method->restore(memory.subspan(2, history));
-  if (minimizer_) minimizer_->restore(start_guess_.restore(memory.subspan(2 + history), state.x.size()));
+  std::span<const double> rest = memory.subspan(2 + history);
+  if (model_.surfaces) rest = model_.surfaces->restore(rest);
+  if (minimizer_) minimizer_->restore(start_guess_.restore(rest, state.x.size()));
 }
 
 }  // namespace softreel::sim

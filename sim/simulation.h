@@ -64,6 +64,9 @@ class Simulation {
   Acceleration acceleration(double h, StepReport& report);
   void explicit_step(double h, StepReport& report);
   void implicit_step(double h, StepReport& report);
+  double start_of_solve(double end, Eigen::VectorXd& y, StepReport& report);
+  void solve(const Eigen::VectorXd& target, double progress, const Eigen::VectorXd* guess, Eigen::VectorXd& y,
+             StepReport& report);
   void forget();
 
   Model model_;
@@ -77,6 +80,7 @@ class Simulation {
   std::unique_ptr<IncrementalPotential> phi_;  // of implicit methods
   std::unique_ptr<Minimizer> minimizer_;
   std::unique_ptr<MassMatrix> mass_;  // of explicit methods
+  bool driven_ = false;  ///< pins or colliders that touch move in this step
   Eigen::VectorXd predicted_, guess_;
   StartGuess start_guess_;  // of implicit methods
 };

@@ -21,6 +21,7 @@ struct StepReport {
   long linear_iterations = 0;
   long hessians = 0;             ///< element Hessian evaluations, over all terms
   long contact_evaluations = 0;  ///< evaluations of the contact term
+  long stiffenings = 0;          ///< solves taken again with stiffer contact between surfaces
   double residual = 0;           ///< worst |g|/|g0| of a body at the end of a solve (0: at rest from the start)
   double dissipated = 0;         ///< work of the dissipation potentials [J]
   std::string_view solver;       ///< linear solver that was chosen last
@@ -38,6 +39,7 @@ struct StepReport {
     linear_iterations += next.linear_iterations;
     hessians += next.hessians;
     contact_evaluations += next.contact_evaluations;
+    stiffenings += next.stiffenings;
     residual = residual > next.residual ? residual : next.residual;
     dissipated += next.dissipated;
     if (!next.solver.empty()) solver = next.solver;

@@ -48,7 +48,7 @@ Newton::Newton(const Model& model, IncrementalPotential& phi, const LinearSettin
 
 /// Builds the pattern and the symbolic work before the first step needs it (a resumed run restores into it).
 void Newton::prepare() {
-  if (analysed_) return;
+  if (analysed_ >= 0) return;
   StepReport ignored;
   Stage& stage = phi_.stage();
   stage.y_tilde = model_.x0;
@@ -56,7 +56,7 @@ void Newton::prepare() {
   stage.beta = stage.a = 0;
   phi_.hessian(model_.x0, definiteness_, H_, ignored);
   linear_->analyse(H_);
-  analysed_ = true;
+  analysed_ = H_.pattern;
 }
 
 std::vector<double> Newton::memory() const {
@@ -99,6 +99,27 @@ Minimizer::Failure Newton::advance(int iteration, Eigen::VectorXd& y, StepReport
   if (step(iteration, y, report, failure)) return {};
   shift_ = 0;
   return failure;
+}
+
+/// The held go the rest of their way d_h, the others take Newton's step with them: H_ff d_f = -g_f - H_fh d_h. What stands
+/// in the way is pushed, since contact is in H_fh; continuous collision detection cuts the step. There is no energy to
+/// look at: what drives puts in whatever it takes.
+Minimizer::Failure Newton::drive(Eigen::VectorXd& y, StepReport& report) {
+  ++report.newton_iterations;
+  forcing_ = kFirstForcing;
+  phi_.soften();
+  definiteness_ = Definiteness::kClamped;
+  phi_.hessian(y, definiteness_, H_, report);
+  applied_shift_ = 0;
+  phi_.driven_force(y, model_gradient_, report);
+  model_gradient_ += g_;
+  Failure failure;
+  if (!direction(y, report, failure)) return failure;
+  phi_.set_remaining(y, d_);
+  const double share = phi_.max_step(y, d_, report);
+  y += share * d_;
+  phi_.driven(share);
+  return {};
 }
 
 /// kAuto only: the exact Hessian gave no way down, so clamped ones for a while. If it has shown itself `indefinite`, so
@@ -189,9 +210,9 @@ std::vector<double> Newton::linear_targets() const {
 /// d := -(H + c I)^-1 g of the model. Returns false, with the reason, if there is none with any c.
 bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string& failure) {
   const Stopwatch watch(report.seconds.solve);
-  if (!analysed_) {
+  if (analysed_ != H_.pattern) {
     linear_->analyse(H_);
-    analysed_ = true;
+    analysed_ = H_.pattern;
   }
   const std::vector<double> targets = linear_targets();
   // Of the body at rest: the diagonal of H itself can be anything in a bad state, zero and less included.

@@ -1,0 +1,316 @@
+#include "sim/contact/contact_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+
+#include "sim/parallel.h"
+
+namespace softreel::sim {
+namespace {
+
+// Room around a move, so that the next ones, which are mostly shorter, stay in it: of d_hat, and of the move.
+constexpr double kRoom = 0.5, kRoomOfMove = 0.5;
+constexpr int kMostPieces = 8;  // of the way of a pair, after which it counts as a candidate
+// A surface's own features keep away from each other by half of what they were apart at rest.
+constexpr double kShareOfRest = 0.5;
+// A tree whose boxes have grown by so much is built anew.
+constexpr double kWorn = 2.0;
+
+}  // namespace
+
+ContactCandidates::ContactCandidates(const ContactSurfaces& surfaces, double reach)
+    : surfaces_(surfaces), reach_(reach), trees_(surfaces.surfaces.size()), built_cost_(trees_.size(), 0) {
+  for (const ContactSurface& surface : surfaces.surfaces) {
+    Eigen::AlignedBox3d box;
+    for (int v = surface.first; v < surface.first + surface.count; ++v) box.extend(surfaces.rest[static_cast<size_t>(v)]);
+    if (!box.isEmpty()) extent_ = std::max(extent_, box.diagonal().norm());
+  }
+  for (const SurfacePair& pair : surfaces.pairs)
+    for (const int s : {pair.a, pair.b}) {
+      auto& tree = trees_[static_cast<size_t>(s)];
+      const ContactSurface& surface = surfaces.surfaces[static_cast<size_t>(s)];
+      if (tree) continue;
+      tree = std::make_unique<BoxTree>(std::span(surfaces.triangles)
+                                           .subspan(static_cast<size_t>(surface.first_triangle),
+                                                    static_cast<size_t>(surface.triangle_count)),
+                                       surfaces.rest);
+    }
+}
+
+std::array<int, 4> ContactCandidates::vertices(PairKind kind, const Candidate& c) const {
+  if (kind == PairKind::kPointTriangle) {
+    const Triangle& t = surfaces_.triangles[static_cast<size_t>(c.b)];
+    return {c.a, t[0], t[1], t[2]};
+  }
+  const auto &e = surfaces_.edges[static_cast<size_t>(c.a)], &f = surfaces_.edges[static_cast<size_t>(c.b)];
+  return {e[0], e[1], f[0], f[1]};
+}
+
+ContactCandidates::Place ContactCandidates::place_of(const std::vector<Vec3>& x) const {
+  Place place;
+  if (move2_ > 0) {
+    const double along = parallel_sum(static_cast<int>(x.size()), Work::kVector, [&](int i) {
+      const auto v = static_cast<size_t>(i);
+      return (x[v] - start_[v]).dot(move_[v]);
+    });
+    place.s = std::clamp(along / move2_, 0.0, 1.0);
+  }
+  for (const ContactSurface& surface : surfaces_.surfaces) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = surface.first; i < surface.first + surface.count; ++i) {
+      const auto v = static_cast<size_t>(i);
+      sum += x[v] - start_[v] - place.s * move_[v];
+    }
+    place.shift.push_back(surface.count > 0 ? Vec3(sum / surface.count) : sum);
+  }
+  return place;
+}
+
+double ContactCandidates::off(const std::vector<Vec3>& x, const Place& place, size_t v) const {
+  return (x[v] - start_[v] - place.s * move_[v] - place.shift[static_cast<size_t>(surfaces_.surface_of[v])]).norm();
+}
+
+double ContactCandidates::apart(const Place& place, const SurfacePair& pair) const {
+  return (place.shift[static_cast<size_t>(pair.b)] - place.shift[static_cast<size_t>(pair.a)]).norm();
+}
+
+void ContactCandidates::begin(const std::vector<Vec3>& x, const std::vector<Vec3>& move) {
+  start_ = x;
+  move_ = move;
+  move2_ = 0;
+  for (const Vec3& m : move) move2_ += m.squaredNorm();
+  mean_move_.clear();
+  radius_.resize(x.size());
+  for (const ContactSurface& surface : surfaces_.surfaces) {
+    Vec3 sum = Vec3::Zero();
+    for (int v = surface.first; v < surface.first + surface.count; ++v) sum += move[static_cast<size_t>(v)];
+    mean_move_.push_back(surface.count > 0 ? Vec3(sum / surface.count) : sum);
+    for (int v = surface.first; v < surface.first + surface.count; ++v)
+      radius_[static_cast<size_t>(v)] =
+          kRoom * reach_ + kRoomOfMove * (move[static_cast<size_t>(v)] - mean_move_.back()).norm();
+  }
+  shift_.clear();
+  for (const SurfacePair& pair : surfaces_.pairs)
+    shift_.push_back(kRoom * reach_ + kRoomOfMove * (mean_move_[static_cast<size_t>(pair.b)] -
+                                                     mean_move_[static_cast<size_t>(pair.a)])
+                                                        .norm());
+  search();
+}
+
+bool ContactCandidates::holds(const std::vector<Vec3>& x, const Place& place) const {
+  for (size_t p = 0; p < surfaces_.pairs.size(); ++p)
+    if (!(apart(place, surfaces_.pairs[p]) <= shift_[p])) return false;
+  for (size_t v = 0; v < x.size(); ++v)
+    if (!(off(x, place, v) <= radius_[v])) return false;
+  return true;
+}
+
+bool ContactCandidates::cover(const std::vector<Vec3>& x) {
+  if (holds(x, place_of(x))) return false;
+  begin(x, std::vector<Vec3>(x.size(), Vec3::Zero()));
+  return true;
+}
+
+bool ContactCandidates::cover(const std::vector<Vec3>& x, const std::vector<Vec3>& move) {
+  if (holds(x, place_of(x))) {
+    std::vector<Vec3> end(x.size());
+    for (size_t v = 0; v < x.size(); ++v) end[v] = x[v] + move[v];
+    if (holds(end, place_of(end))) return false;
+  }
+  begin(x, move);
+  return true;
+}
+
+/// Boxes meet long before features do. Goes along the common way, by pieces on which the pair cannot come nearer than
+/// what it may be off.
+bool ContactCandidates::may_meet(PairKind kind, const SurfacePair& pair, int pair_number, const Candidate& c) const {
+  FourPoints x, m;
+  double radius[4], speed[4];
+  const std::array<int, 4> v = vertices(kind, c);
+  Vec3 mean = Vec3::Zero();
+  for (size_t i = 0; i < 4; ++i) {
+    x[i] = start_[static_cast<size_t>(v[i])];
+    m[i] = move_[static_cast<size_t>(v[i])];
+    mean += 0.25 * m[i];
+    radius[i] = radius_[static_cast<size_t>(v[i])];
+  }
+  for (size_t i = 0; i < 4; ++i) speed[i] = (m[i] - mean).norm();
+  const auto both = [kind](const double* n) {
+    return kind == PairKind::kPointTriangle ? n[0] + std::max({n[1], n[2], n[3]})
+                                            : std::max(n[0], n[1]) + std::max(n[2], n[3]);
+  };
+  const double fastest = both(speed);
+  double near = both(radius) + pair.offset + static_cast<double>(c.reach);
+  if (pair.a != pair.b) near += shift_[static_cast<size_t>(pair_number)];
+  double s = 0;
+  for (int piece = 0; piece < kMostPieces; ++piece) {
+    FourPoints at;
+    for (size_t i = 0; i < 4; ++i) at[i] = x[i] + s * (m[i] - mean);
+    const double room = pair_distance(kind, at) * (1 - 1e-9) - near;
+    if (room <= 0) return true;
+    s += room / fastest;
+    if (!(s < 1)) return false;
+  }
+  return true;
+}
+
+/// d_hat of a pair that may be close at rest. False if it touches there: such a pair is left alone.
+bool ContactCandidates::close_reach(PairKind kind, const SurfacePair& pair, Candidate& c) const {
+  if (!pair.close_at_rest) return true;
+  FourPoints x;
+  const std::array<int, 4> v = vertices(kind, c);
+  for (size_t i = 0; i < 4; ++i) x[i] = surfaces_.rest[static_cast<size_t>(v[i])];
+  const double gap = pair_distance(kind, x) - pair.offset;
+  if (gap <= 0) return false;
+  c.reach = static_cast<float>(std::min(static_cast<double>(c.reach), kShareOfRest * gap));
+  return true;
+}
+
+void ContactCandidates::add_features(const BoxTree::Pair& triangles, const SurfacePair& pair, int pair_number,
+                                     const Box3f* shifts, std::vector<Candidate>& points,
+                                     std::vector<Candidate>& edges) const {
+  const auto reach = static_cast<float>(reach_);
+  const auto box_of = [&](std::span<const int> vertices) {
+    Box3f box;
+    for (const int v : vertices) box.add(vertex_box_[static_cast<size_t>(v)]);
+    return box;
+  };
+  const auto meet = [&](const Box3f& of_a, const Box3f& of_b) {
+    return of_a.meets(shifts ? of_b.swept(*shifts) : of_b);
+  };
+  const auto t = static_cast<size_t>(triangles.first), u = static_cast<size_t>(triangles.second);
+  const Triangle &T = surfaces_.triangles[t], &U = surfaces_.triangles[u];
+  for (size_t k = 0; k < 3; ++k) {
+    if (surfaces_.stands_for[t] >> k & 1 && std::find(U.begin(), U.end(), T[k]) == U.end() &&
+        meet(vertex_box_[static_cast<size_t>(T[k])], triangle_box_[u])) {
+      Candidate c{T[k], triangles.second, reach, pair_number};
+      if (close_reach(PairKind::kPointTriangle, pair, c) && may_meet(PairKind::kPointTriangle, pair, pair_number, c)) points.push_back(c);
+    }
+    if (surfaces_.stands_for[u] >> k & 1 && std::find(T.begin(), T.end(), U[k]) == T.end() &&
+        meet(triangle_box_[t], vertex_box_[static_cast<size_t>(U[k])])) {
+      Candidate c{U[k], triangles.first, reach, pair_number};
+      if (close_reach(PairKind::kPointTriangle, pair, c) && may_meet(PairKind::kPointTriangle, pair, pair_number, c)) points.push_back(c);
+    }
+  }
+  for (size_t k = 0; k < 3; ++k) {
+    if (!(surfaces_.stands_for[t] >> (3 + k) & 1)) continue;
+    const int e = surfaces_.triangle_edges[t][k];
+    const auto& ends = surfaces_.edges[static_cast<size_t>(e)];
+    const Box3f box = box_of(ends);
+    for (size_t l = 0; l < 3; ++l) {
+      if (!(surfaces_.stands_for[u] >> (3 + l) & 1)) continue;
+      const int f = surfaces_.triangle_edges[u][l];
+      const auto& others = surfaces_.edges[static_cast<size_t>(f)];
+      if (ends[0] == others[0] || ends[0] == others[1] || ends[1] == others[0] || ends[1] == others[1]) continue;
+      if (!meet(box, box_of(others))) continue;
+      Candidate c{e, f, reach, pair_number};
+      if (pair.a == pair.b && c.a > c.b) std::swap(c.a, c.b);
+      if (close_reach(PairKind::kEdgeEdge, pair, c) && may_meet(PairKind::kEdgeEdge, pair, pair_number, c)) edges.push_back(c);
+    }
+  }
+}
+
+/// Boxes of everything that vertices may come to, in frames that move with their surfaces.
+void ContactCandidates::refit() {
+  vertex_box_.resize(start_.size());
+  parallel_for(static_cast<int>(start_.size()), Work::kRow, [&](int i) {
+    const auto v = static_cast<size_t>(i), s = static_cast<size_t>(surfaces_.surface_of[v]);
+    Box3f box;
+    box.add(start_[v]);
+    box.add(Vec3(start_[v] + move_[v] - mean_move_[s]));
+    // Two boxes, each larger by half of the distance at which their features begin to feel each other.
+    box.grow(radius_[v] + 0.5 * reach_ + surfaces_.surfaces[s].half_thickness);
+    vertex_box_[v] = box;
+  });
+  triangle_box_.resize(surfaces_.triangles.size());
+  parallel_for(static_cast<int>(triangle_box_.size()), Work::kRow, [&](int i) {
+    const auto t = static_cast<size_t>(i);
+    triangle_box_[t] = {};
+    for (const int v : surfaces_.triangles[t]) triangle_box_[t].add(vertex_box_[static_cast<size_t>(v)]);
+  });
+  parallel_tasks(static_cast<int>(trees_.size()), [&](int i) {
+    const auto s = static_cast<size_t>(i);
+    if (!trees_[s]) return;
+    trees_[s]->refit(vertex_box_);
+    if (built_cost_[s] == 0) {
+      built_cost_[s] = trees_[s]->cost();
+    } else if (trees_[s]->cost() > kWorn * built_cost_[s]) {
+      const ContactSurface& surface = surfaces_.surfaces[s];
+      std::vector<Vec3> middles;
+      for (const Box3f& box : vertex_box_) middles.push_back((0.5F * (box.lower + box.upper)).matrix().cast<double>());
+      trees_[s] = std::make_unique<BoxTree>(std::span(surfaces_.triangles)
+                                                .subspan(static_cast<size_t>(surface.first_triangle),
+                                                         static_cast<size_t>(surface.triangle_count)),
+                                            middles);
+      trees_[s]->refit(vertex_box_);
+      built_cost_[s] = trees_[s]->cost();
+    }
+  });
+}
+
+void ContactCandidates::search() {
+  ++searches_;
+  point_triangle_.clear();
+  edge_edge_.clear();
+  lost_ = false;
+  for (size_t v = 0; v < start_.size(); ++v) {
+    const Vec3& mean = mean_move_[static_cast<size_t>(surfaces_.surface_of[v])];
+    lost_ = lost_ || !((move_[v] - mean).norm() + radius_[v] <= 2 * kFarthest * extent_);
+  }
+  if (lost_) return;
+  refit();
+  struct Part {
+    BoxTree::Work work;
+    size_t pair;
+    Box3f shifts;
+  };
+  std::vector<Part> parts;
+  for (size_t p = 0; p < surfaces_.pairs.size(); ++p) {
+    const SurfacePair& pair = surfaces_.pairs[p];
+    const BoxTree& tree = *trees_[static_cast<size_t>(pair.a)];
+    if (pair.a == pair.b) {
+      for (const BoxTree::Work& w : tree.self_work()) parts.push_back({w, p, {}});
+      continue;
+    }
+    // A rule may set surfaces farther apart than their own thicknesses do.
+    Box3f shifts;
+    shifts.add(Vec3(Vec3::Zero()));
+    shifts.add(Vec3(mean_move_[static_cast<size_t>(pair.b)] - mean_move_[static_cast<size_t>(pair.a)]));
+    const double own = surfaces_.surfaces[static_cast<size_t>(pair.a)].half_thickness +
+                       surfaces_.surfaces[static_cast<size_t>(pair.b)].half_thickness;
+    shifts.grow(shift_[p] + std::max(0.0, pair.offset - own));
+    for (const BoxTree::Work& w : tree.work_with(*trees_[static_cast<size_t>(pair.b)], shifts))
+      parts.push_back({w, p, shifts});
+  }
+  std::vector<std::vector<Candidate>> points(parts.size()), edges(parts.size());
+  parallel_tasks(static_cast<int>(parts.size()), [&](int i) {
+    const auto k = static_cast<size_t>(i);
+    const Part& part = parts[k];
+    const SurfacePair& pair = surfaces_.pairs[part.pair];
+    const ContactSurface &a = surfaces_.surfaces[static_cast<size_t>(pair.a)],
+                         &b = surfaces_.surfaces[static_cast<size_t>(pair.b)];
+    const auto boxes = [&](const ContactSurface& s) {
+      return std::span<const Box3f>(triangle_box_)
+          .subspan(static_cast<size_t>(s.first_triangle), static_cast<size_t>(s.triangle_count));
+    };
+    std::vector<BoxTree::Pair> found;
+    const bool self = pair.a == pair.b;
+    const BoxTree& tree = *trees_[static_cast<size_t>(pair.a)];
+    if (self)
+      tree.self_pairs(part.work, boxes(a), found);
+    else
+      tree.pairs_with(part.work, *trees_[static_cast<size_t>(pair.b)], part.shifts, boxes(a), boxes(b), found);
+    for (BoxTree::Pair t : found) {
+      t.first += a.first_triangle;
+      t.second += b.first_triangle;
+      add_features(t, pair, static_cast<int>(part.pair), self ? nullptr : &part.shifts, points[k], edges[k]);
+    }
+  });
+  for (size_t k = 0; k < parts.size(); ++k) {
+    point_triangle_.insert(point_triangle_.end(), points[k].begin(), points[k].end());
+    edge_edge_.insert(edge_edge_.end(), edges[k].begin(), edges[k].end());
+  }
+}
+
+}  // namespace softreel::sim
