@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
 #include "app/frame_range.h"
 #include "assets/atomic_file.h"
 #include "assets/state_file.h"
@@ -13,6 +16,18 @@ std::vector<double> to_vector(const Eigen::VectorXd& v) { return {v.data(), v.da
 Eigen::VectorXd to_eigen(const std::vector<double>& v) {
   return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
 }
+
+constexpr std::array<std::pair<const char*, double ContactFigures::*>, 9> kContactFigures = {{
+    {"contact/candidates", &ContactFigures::candidates},
+    {"contact/active", &ContactFigures::active},
+    {"contact/smallest_gap", &ContactFigures::smallest_gap},
+    {"contact/deepest", &ContactFigures::deepest},
+    {"contact/crossings", &ContactFigures::crossings},
+    {"contact/sticks", &ContactFigures::sticks},
+    {"contact/slips", &ContactFigures::slips},
+    {"contact/stiffenings", &ContactFigures::stiffenings},
+    {"contact/stiffening_energy", &ContactFigures::stiffening_energy},
+}};
 
 }  // namespace
 
@@ -55,6 +70,8 @@ void ClipCache::write(int frame, const CachedFrame& data) const {
     record.scalars["accuracy/coarse_steps"] = a->coarse_steps;
     record.scalars["accuracy/met"] = a->met ? 1 : 0;
   }
+  if (data.figures.contact)
+    for (const auto& [name, figure] : kContactFigures) record.scalars[name] = *data.figures.contact.*figure;
   for (std::size_t i = 0; i < data.fields.size(); ++i) {
     const std::string name = fmt::format("field/{}/", i + 1);
     record.arrays[name + "value"] = to_vector(data.fields[i].value);
@@ -85,6 +102,10 @@ std::optional<CachedFrame> ClipCache::read(int frame, int vertices) const {
     data.figures.inverted = s.at("inverted");
     if (s.contains("accuracy/met"))
       data.figures.accuracy = {s.at("accuracy/estimate"), s.at("accuracy/coarse_steps"), s.at("accuracy/met") != 0};
+    if (s.contains(kContactFigures.front().first)) {
+      data.figures.contact.emplace();
+      for (const auto& [name, figure] : kContactFigures) *data.figures.contact.*figure = s.at(name);
+    }
     const auto fields = s.find("fields");
     data.fields.resize(fields == s.end() ? 0 : static_cast<std::size_t>(fields->second));
     for (std::size_t i = 0; i < data.fields.size(); ++i) {

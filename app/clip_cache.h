@@ -17,6 +17,17 @@ struct FrameAccuracy {
   bool met = true;          ///< the estimate can be relied on, and is small enough in every frame
 };
 
+/// Of contact between surfaces, in a frame.
+struct ContactFigures {
+  double candidates = 0, active = 0;  ///< pairs of features: looked at, within the contact distance
+  double smallest_gap = 0;            ///< of the active ones [m]; 0: there are none
+  double deepest = 0;                 ///< deepest intrusion into the contact distance, as a share of it
+  double crossings = 0;               ///< pairs of triangles that cross
+  double sticks = 0, slips = 0;       ///< touches with friction that hold, that slide
+  double stiffenings = 0;             ///< solves that were taken again with more stiffness, since the frame before
+  double stiffening_energy = 0;       ///< that this has added since the start [J]
+};
+
 /// What a frame tells beside its state: counts and energies since the frame before.
 struct FrameFigures {
   sim::Energies energies;
@@ -24,6 +35,7 @@ struct FrameFigures {
   double residual = 0;  ///< the worst of those steps (sim::StepReport)
   double inverted = 0;  ///< tetrahedra that are inside out, in this frame
   std::optional<FrameAccuracy> accuracy;
+  std::optional<ContactFigures> contact;  ///< where surfaces can touch
 };
 
 /// Of one field.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/field_world.h"
+#include "app/touching_surfaces.h"
 #include "app/world.h"
 
 namespace softreel::app {
@@ -29,12 +30,34 @@ std::optional<StepFailure> ClipWorld::step(double h, sim::StepReport& sum) {
   return std::nullopt;
 }
 
+ContactFigures ClipWorld::contact_figures(const sim::StepReport& sum) const {
+  const sim::SurfaceContact& contact = *bodies_->model().surfaces;
+  const sim::State& state = bodies_->state();
+  const sim::SurfaceContactReport report = contact.report(state.x);
+  ContactFigures figures;
+  figures.candidates = static_cast<double>(report.candidates);
+  figures.active = static_cast<double>(report.active);
+  if (report.active > 0) {
+    figures.smallest_gap = report.smallest_gap;
+    figures.deepest = report.deepest;
+  }
+  const sim::SlidingCount sliding = contact.count_sliding(state.x, state.v, scene_.contact.slip_speed);
+  figures.sticks = static_cast<double>(sliding.sticks);
+  figures.slips = static_cast<double>(sliding.slips);
+  for (const Crossing& c : crossings(contact.surfaces(), state.x, state.t))
+    figures.crossings += static_cast<double>(c.pairs);
+  figures.stiffenings = static_cast<double>(sum.stiffenings);
+  figures.stiffening_energy = contact.stiffening_energy();
+  return figures;
+}
+
 CachedFrame ClipWorld::frame(const sim::StepReport& sum) const {
   CachedFrame frame;
   if (bodies_) {
     frame.state = bodies_->state();
     frame.memory = bodies_->memory();
     frame.figures.energies = bodies_->energies();
+    if (bodies_->model().surfaces) frame.figures.contact = contact_figures(sum);
   } else {
     frame.state.t = t_;
   }

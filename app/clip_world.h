@@ -39,6 +39,8 @@ class ClipWorld {
   void restore(const CachedFrame& frame);
 
  private:
+  ContactFigures contact_figures(const sim::StepReport& sum) const;
+
   const assets::Scene& scene_;
   double t_ = 0;
   std::unique_ptr<sim::Simulation> bodies_;

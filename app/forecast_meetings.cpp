@@ -33,6 +33,7 @@ Vec3 half_extent(const assets::Collider& c) {
   const double scale = c.transform.scale.x();
   switch (c.shape) {
     case assets::ColliderShape::kPlane:
+    case assets::ColliderShape::kMesh:  // stopped by continuous collision detection, at any speed
       return Vec3::Zero();
     case assets::ColliderShape::kSphere:
       return Vec3::Constant(c.radius * scale);

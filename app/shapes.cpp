@@ -79,15 +79,18 @@ SolidShape load_solid(const assets::Scene& scene, const assets::SoftBody& soft,
   return shape;
 }
 
-/// Of a cloth or field.
+/// Of a cloth, field or mesh collider.
 template <class Sheet>
 ClothShape load_sheet(const assets::Scene& scene, const Sheet& sheet, Shapes& shapes) {
   ClothShape shape;
-  if (sheet.grid)
-    shape.drawn.surface = assets::surface_from_mesh(
-        sim::grid_sheet(sheet.grid->size[0], sheet.grid->size[1], sheet.grid->cells[0], sheet.grid->cells[1]));
-  else
-    shape.drawn.surface = import(scene, sheet.mesh, shapes.notes);
+  bool made = false;
+  if constexpr (requires { sheet.grid; }) {
+    made = sheet.grid.has_value();
+    if (made)
+      shape.drawn.surface = assets::surface_from_mesh(
+          sim::grid_sheet(sheet.grid->size[0], sheet.grid->size[1], sheet.grid->cells[0], sheet.grid->cells[1]));
+  }
+  if (!made) shape.drawn.surface = import(scene, sheet.mesh, shapes.notes);
   scale_about_pivot(sheet.transform, shape.drawn.surface.welded.vertices);
   place_surface(sheet.transform, shape.drawn.surface);
   shape.rest = shape.drawn.surface.welded;
@@ -155,6 +158,10 @@ Shapes load_shapes(const assets::Scene& scene, const std::filesystem::path& cach
   for (const assets::SoftBody& soft : scene.soft) shapes.soft.push_back(load_solid(scene, soft, cache_folder, shapes));
   for (const assets::Cloth& cloth : scene.cloth) shapes.cloth.push_back(load_sheet(scene, cloth, shapes));
   for (const assets::SpringBody& body : scene.springs) shapes.springs.push_back(load_springs(body, shapes));
+  for (const assets::Collider& c : scene.colliders) {
+    shapes.colliders.emplace_back();
+    if (c.shape == assets::ColliderShape::kMesh) shapes.colliders.back() = load_sheet(scene, c, shapes);
+  }
   load_fields(scene, shapes);
   return shapes;
 }

@@ -35,6 +35,7 @@ render::Shape shape_of(const assets::Collider& c, const ClipExtent& extent) {
     case assets::ColliderShape::kCapsule:
       return render::make_capsule(static_cast<float>(c.radius) * scale, static_cast<float>(c.height) * scale);
     case assets::ColliderShape::kPlane:
+    case assets::ColliderShape::kMesh:
       break;
   }
   const float side = std::max(6.0f * extent.bounds.radius(), 1.0f);
@@ -126,9 +127,18 @@ void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFra
     extent.add(box);
     extent.field_ranges[i].add(frame.fields[i].value);
   }
-  for (const assets::Collider& c : scene.colliders)
-    if (c.visible && c.shape != assets::ColliderShape::kPlane)
+  for (size_t i = 0; i < scene.colliders.size(); ++i) {
+    const assets::Collider& c = scene.colliders[i];
+    if (!c.visible || c.shape == assets::ColliderShape::kPlane) continue;
+    if (c.shape == assets::ColliderShape::kMesh) {
+      const Eigen::Isometry3d pose = make_collider(c).motion.pose(state.t);
+      render::Bounds box;
+      for (const sim::Vec3& v : shapes.colliders[i]->rest.vertices) box.add(to_vec(pose * v));
+      extent.add(box);
+    } else {
       extent.add(moved(shape_of(c, extent), make_collider(c).pose(state.t)));
+    }
+  }
 }
 
 render::Camera camera_of(const assets::Scene& scene, const ClipExtent& extent,
@@ -175,7 +185,7 @@ Stage::Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent&
                  static_cast<std::uint32_t>(scene.render.seed), 0}) {
   add_bodies(shapes);
   add_fields(shapes, extent);
-  add_colliders(extent);
+  add_colliders(shapes, extent);
   camera_ = camera_of(scene_, extent, bars_);
   place_lights(extent);
   place_ground(extent);
@@ -206,9 +216,20 @@ void Stage::add_fields(const Shapes& shapes, const ClipExtent& extent) {
   }
 }
 
-void Stage::add_colliders(const ClipExtent& extent) {
-  for (const assets::Collider& c : scene_.colliders) {
+void Stage::add_colliders(const Shapes& shapes, const ClipExtent& extent) {
+  for (size_t i = 0; i < scene_.colliders.size(); ++i) {
+    const assets::Collider& c = scene_.colliders[i];
     if (!c.visible) continue;
+    if (c.shape == assets::ColliderShape::kMesh) {
+      const BodySurface& drawn = shapes.colliders[i]->drawn;
+      DrawnSurface d = drawn_surface(drawn.surface, drawn.position_count, c.look, texture_path(scene_, c.look), true);
+      DrawnCollider placed{renderer_.add_mesh(std::move(d.mesh), std::move(d.looks)), make_collider(c),
+                           !c.motion.empty()};
+      placed.collider.world_from_shape.setIdentity();  // its vertices are placed
+      renderer_.set_transform(placed.mesh, to_glm(placed.collider.pose(0)));
+      colliders_.push_back(std::move(placed));
+      continue;
+    }
     if (!ground_plane_ && is_level(c) && scene_.render.ground.show != assets::GroundMode::kOff) {
       ground_plane_ = &c;
       continue;

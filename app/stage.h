@@ -47,7 +47,7 @@ class Stage {
  private:
   void add_bodies(const Shapes& shapes);
   void add_fields(const Shapes& shapes, const ClipExtent& extent);
-  void add_colliders(const ClipExtent& extent);
+  void add_colliders(const Shapes& shapes, const ClipExtent& extent);
   void place_lights(const ClipExtent& extent);
   void place_ground(const ClipExtent& extent);
 

@@ -134,6 +134,32 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
   per_frame("retried_steps", [](const FrameFigures& f) { return static_cast<long>(f.retried_steps); });
   per_frame("residual", [](const FrameFigures& f) { return f.residual; });
   per_frame("inverted_tets", [](const FrameFigures& f) { return static_cast<long>(f.inverted); });
+  // Where surfaces can touch.
+  const auto contact = [&](const char* section, const char* name, double ContactFigures::*figure, bool count) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const FrameFigures& f : run.per_frame) {
+      if (!f.contact) return;
+      const double value = *f.contact.*figure;
+      if (count)
+        list.push_back(static_cast<long>(value));
+      else
+        list.push_back(value);
+    }
+    if (list.empty()) return;
+    if (*section)
+      j[section][name] = std::move(list);
+    else
+      j[name] = std::move(list);
+  };
+  contact("", "crossings", &ContactFigures::crossings, true);
+  contact("contact", "candidates", &ContactFigures::candidates, true);
+  contact("contact", "active", &ContactFigures::active, true);
+  contact("contact", "smallest_gap", &ContactFigures::smallest_gap, false);
+  contact("contact", "deepest", &ContactFigures::deepest, false);
+  contact("contact", "sticks", &ContactFigures::sticks, true);
+  contact("contact", "slips", &ContactFigures::slips, true);
+  contact("contact", "stiffenings", &ContactFigures::stiffenings, true);
+  contact("contact", "stiffening_energy", &ContactFigures::stiffening_energy, false);
   // File names may hold any bytes; JSON only UTF-8.
   assets::write_file_atomically(file, j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }

@@ -7,6 +7,7 @@
 #include "app/body_part.h"
 #include "app/couplings.h"
 #include "app/placement.h"
+#include "app/touching_surfaces.h"
 #include "assets/error.h"
 #include "assets/scene_names.h"
 #include "sim/free_bodies.h"
@@ -184,6 +185,9 @@ sim::Collider make_collider(const assets::Collider& c) {
     case assets::ColliderShape::kBox:
       result.shape = sim::BoxShape{0.5 * c.transform.scale.cwiseProduct(c.size)};
       break;
+    case assets::ColliderShape::kMesh:
+      result.shape = sim::SurfaceShape{};
+      break;
     case assets::ColliderShape::kCapsule:
       result.shape = sim::CapsuleShape{c.radius * scale, 0.5 * c.height * scale};
       break;
@@ -215,11 +219,14 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
                       nullptr, nullptr});
   add_couplings(scene, bodies, builder);
   std::vector<sim::Collider> colliders;
-  for (const assets::Collider& c : scene.colliders) colliders.push_back(make_collider(c));
+  for (const assets::Collider& c : scene.colliders)
+    if (c.shape != assets::ColliderShape::kMesh) colliders.push_back(make_collider(c));
+  add_touching_surfaces(scene, shapes, bodies, builder);
   sim::Model model =
       builder.finish(scene.gravity, {scene.damping.drag, scene.damping.alpha, scene.damping.beta}, std::move(colliders),
                      {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0),
                       sim::is_implicit(scene.time.integrator) ? 100.0 : sim::kExplicitHardness});
+  settle_overlaps(scene, model);
   if (scene.time.integrator == "static") refuse_free_bodies(scene, model);
   return model;
 }

@@ -26,7 +26,7 @@ enum class MassModel { kLumped, kConsistent };
 enum class BendingModel { kAuto, kQuadratic, kDiscreteShell };  ///< kAuto: quadratic where flat at rest
 enum class TetrahedralizeMode { kConform };
 enum class UpAxis { kX, kY, kZ };
-enum class ColliderShape { kPlane, kSphere, kBox, kCapsule };
+enum class ColliderShape { kPlane, kSphere, kBox, kCapsule, kMesh };
 enum class LightKind { kArea, kSun };
 enum class GroundMode { kAuto, kOn, kOff };
 enum class ColorMap { kViridis, kInferno, kMagma, kCoolwarm };
@@ -158,6 +158,14 @@ struct Springs {
                                      ///< thickness
 };
 
+/// How the surface of a soft body or cloth touches itself and others.
+struct BodyContact {
+  bool self = false;               ///< itself; where the file says nothing, what [contact] says
+  bool others = true;              ///< other bodies, and mesh colliders
+  std::optional<double> friction;  ///< Coulomb's coefficient [-]; absent: as [contact] says
+  double thickness = 0;            ///< surfaces keep half of it on either side [m]
+};
+
 /// What soft bodies and cloths have in common.
 struct Body {
   std::string name;  ///< unique among bodies and colliders; made up ("soft-1") when the file gives none
@@ -167,6 +175,7 @@ struct Body {
   Vec3 velocity = Vec3::Zero();  ///< at t = 0 [m/s]
   Vec3 spin = Vec3::Zero();      ///< at t = 0 [deg/s], about the world axes through the centre of mass
   std::vector<Pin> pins;
+  BodyContact contact;
   Look look;
   bool visible = true;
 };
@@ -262,6 +271,8 @@ struct Collider {
   double radius = 0.5;            ///< of a sphere or capsule [m]
   Vec3 size = Vec3::Ones();       ///< of a box, centred [m]
   double height = 1;              ///< of a capsule [m], between the centres of its ends, along y
+  MeshSource mesh;                ///< of shape "mesh"; open or closed
+  double thickness = 0;           ///< of a mesh: half of it on either side [m]
   double friction = 0.4;          ///< Coulomb's coefficient [-]
   Transform transform;            ///< of a sphere and capsule the scale is uniform
   std::vector<MotionKey> motion;  ///< t increases; turns about where the transform puts its origin
@@ -299,7 +310,19 @@ struct Field {
   std::string label;  ///< of the colour bar
 };
 
+/// What holds for two surfaces, or one with itself, instead of what follows from each of them.
+struct ContactPair {
+  std::array<BodyName, 2> between;  ///< soft bodies, cloths, mesh colliders; twice the same: with itself
+  bool touch = true;
+  std::optional<double> friction;   ///< [-]
+  std::optional<double> thickness;  ///< their whole distance [m]
+};
+
 struct Contact {
+  bool self = false;                ///< does every cloth and soft body touch itself?
+  double friction = 0.3;            ///< between surfaces of bodies, whose own it is where they give none [-]
+  bool resolve_overlap = false;     ///< bodies that overlap in the first frame are moved apart, not refused
+  std::vector<ContactPair> pairs;
   double distance = 2e-3;           ///< at which the penalty begins [m]
   double slip_speed = 1e-3;         ///< below which friction holds [m/s]
   std::optional<double> stiffness;  ///< of the penalty k in psi = k/3 (distance - d)^3 [N/m^2]; absent: from the scene

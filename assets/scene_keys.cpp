@@ -1,6 +1,6 @@
 // The table: every key of a scene file. To add one, add a line here (and a rule in scene_rules.cpp, if it depends on
 // another key). Bodies and colliders are in scene_keys_bodies.cpp, fields in scene_keys_fields.cpp, what acts on bodies
-// in scene_keys_forces.cpp.
+// in scene_keys_forces.cpp, contact in scene_keys_contact.cpp.
 #include "assets/scene_limits.h"
 #include "assets/scene_rules.h"
 #include "assets/scene_walk.h"
@@ -52,14 +52,6 @@ void walk(KeyVisitor& v, Solver& s) {
         &s.linear_max_iterations);
   v.key({"max_iterations", kPhysics, "", between(1, 100000), "of the minimizer, per step"}, &s.max_iterations);
   if (v.reading()) check(v, s);
-}
-
-void walk(KeyVisitor& v, Contact& c) {
-  v.key({"distance", kPhysics, "m", kLength, "at which the penalty begins"}, &c.distance);
-  v.key({"slip_speed", kPhysics, "m/s", above(0, 1e3), "below which friction holds"}, &c.slip_speed);
-  v.key({"stiffness", kPhysics, "N/m^2", kStiffness,
-         "of the penalty; left out, 100 mass / (step^2 distance) of each vertex"},
-        &c.stiffness);
 }
 
 void walk(KeyVisitor& v, Damping& d) {
@@ -130,7 +122,7 @@ void walk_scene(KeyVisitor& v, Scene& s) {
   v.list({"load", "forces on a part of a body that keep their size and direction"}, keys_of(s.loads));
   v.list({"attach", "ties between vertices of a body and the surface of another"}, keys_of(s.attachments));
   v.section({"wind", "moving air; presses on cloths and soft bodies"}, keys_of(s.wind));
-  v.section({"contact", "between bodies and colliders"}, keys_of(s.contact));
+  v.section({"contact", "between bodies, and with colliders"}, keys_of(s.contact));
   v.section({"damping", "of all bodies"}, keys_of(s.damping));
   v.section({"reference", "the motion in closed form, against which softreel study measures errors"},
             keys_of(s.reference));

@@ -131,6 +131,7 @@ void walk(KeyVisitor& v, SoftBody& b) {
   v.key({"density", kPhysics, "kg/m^3", kDensity, "mass per volume"}, &b.density);
   walk_mass(v, b);
   walk_body(v, b);
+  v.section({"contact", "how its surface touches itself and others"}, keys_of(b.contact));
   if (v.reading()) check(v, b);
 }
 
@@ -154,6 +155,7 @@ void walk(KeyVisitor& v, Cloth& c) {
   v.key({"density", kPhysics, "kg/m^3", kDensity, "mass per volume; mass per area is density x thickness"}, &c.density);
   walk_mass(v, c);
   walk_body(v, c);
+  v.section({"contact", "how its surface touches itself and others"}, keys_of(c.contact));
   if (v.reading()) check(v, c);
 }
 
@@ -188,6 +190,8 @@ void walk(KeyVisitor& v, Collider& c) {
   v.key({"radius", kPhysics, "m", kLength, "of a sphere or capsule"}, &c.radius);
   v.key({"size", kPhysics, "m", kLength, "of a box, around its origin"}, &c.size);
   v.key({"height", kPhysics, "m", kLength, "of a capsule, along y, between the centres of its round ends"}, &c.height);
+  walk_mesh(v, c.mesh);
+  v.key({"thickness", kPhysics, "m", at_least(0, 1e3), "of a mesh: half of it on either side"}, &c.thickness);
   v.key({"friction", kPhysics, "", at_least(0, 100), "Coulomb's coefficient"}, &c.friction);
   walk_transform(v, c.transform);
   walk_motion(v, c.motion, "key frames that move it");

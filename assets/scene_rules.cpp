@@ -183,6 +183,7 @@ void check_accuracy(KeyVisitor& v, const Scene& scene) {
 void check(KeyVisitor& v, Scene& scene) {
   check_names(v, scene);
   check_references(v, scene);
+  fill_self_contact(v, scene);
   check_static(v, scene);
   check_accuracy(v, scene);
   check_consistent_mass(v, scene);
@@ -277,6 +278,9 @@ void check(KeyVisitor& v, Collider& c) {
   only_for(v, round, {"radius"}, "is for shape = \"sphere\" or \"capsule\"");
   only_for(v, shape == ColliderShape::kBox, {"size"}, "is for shape = \"box\"");
   only_for(v, shape == ColliderShape::kCapsule, {"height"}, "is for shape = \"capsule\"");
+  const bool mesh = shape == ColliderShape::kMesh;
+  only_for(v, mesh, {"mesh", "unit", "up", "size", "thickness"}, "is for shape = \"mesh\"");
+  if (mesh && c.mesh.path.empty()) v.problem("", "has shape = \"mesh\" and no mesh; add mesh = \"FILE\"");
   nonzero(v, "normal", c.normal);
   c.normal.normalize();
   const Vec3& s = c.transform.scale;

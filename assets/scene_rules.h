@@ -7,6 +7,8 @@ namespace softreel::assets {
 /// Finds the bodies that loads and attachments speak of, too.
 void check(KeyVisitor& v, Scene& scene);
 void check_references(KeyVisitor& v, Scene& scene);
+/// Bodies that say nothing of contact with themselves follow [contact].
+void fill_self_contact(KeyVisitor& v, Scene& scene);
 void check(KeyVisitor& v, const Time& time);
 void check(KeyVisitor& v, const Solver& solver);
 void check(KeyVisitor& v, const Block& block);
@@ -23,6 +25,7 @@ void check(KeyVisitor& v, Collider& collider);
 void check(KeyVisitor& v, const Load& load);
 void check(KeyVisitor& v, const Reference& reference);
 void check(KeyVisitor& v, const Attach& attach);
+void check(KeyVisitor& v, const ContactPair& pair);
 void check(KeyVisitor& v, const Camera& camera);
 void check(KeyVisitor& v, const Light& light);
 void check(KeyVisitor& v, const Render& render);

@@ -90,6 +90,21 @@ void check(KeyVisitor& v, const Attach& attach) {
     v.problem("bodies", "a body cannot be tied to itself");
 }
 
+void fill_self_contact(KeyVisitor& v, Scene& scene) {
+  const auto fill = [&](auto& bodies, const char* kind) {
+    for (size_t i = 0; i < bodies.size(); ++i)
+      if (!v.given(fmt::format("{}.{}.contact.self", kind, i + 1))) bodies[i].contact.self = scene.contact.self;
+  };
+  fill(scene.soft, "soft");
+  fill(scene.cloth, "cloth");
+}
+
+void check(KeyVisitor& v, const ContactPair& pair) {
+  if (!v.given("between")) v.problem("", "says nothing of whom; add between = [\"NAME\", \"OTHER NAME\"]");
+  for (const char* key : {"friction", "thickness"})
+    if (!pair.touch && v.given(key)) v.problem(key, "has no effect with touch = false");
+}
+
 void check(KeyVisitor& v, const Reference& reference) {
   if (reference.body.name.empty()) v.problem("", "names no body whose motion is known; add body = \"NAME\"");
 }
@@ -106,7 +121,7 @@ void check_references(KeyVisitor& v, Scene& scene) {
   collect(scene.soft, "soft");
   collect(scene.cloth, "cloth");
   collect(scene.springs, "springs");
-  const auto find = [&](BodyName& body, const std::string& place) {
+  const auto find = [&](BodyName& body, const std::string& place, const char* what = "body") {
     if (body.name.empty()) return;  // reported already
     const auto it = places.find(body.name);
     if (it != places.end()) {
@@ -117,7 +132,7 @@ void check_references(KeyVisitor& v, Scene& scene) {
     const std::string rest = !nearest.empty() ? fmt::format("did you mean \"{}\"?", nearest)
                              : names.empty()  ? "there is none at all"
                                               : "there is: " + join_names(names);
-    v.problem(place, fmt::format("there is no body \"{}\"; {}", body.name, rest));
+    v.problem(place, fmt::format("there is no {} \"{}\"; {}", what, body.name, rest));
   };
   for (size_t i = 0; i < scene.loads.size(); ++i) {
     Load& load = scene.loads[i];
@@ -130,6 +145,19 @@ void check_references(KeyVisitor& v, Scene& scene) {
     for (size_t k = 0; k < 2; ++k)
       find(scene.attachments[i].bodies[k], fmt::format("attach.{}.bodies.{}", i + 1, k + 1));
   if (scene.reference) find(scene.reference->body, "reference.body");
+  collect(scene.colliders, "collider");
+  for (size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    for (size_t k = 0; k < 2; ++k) {
+      BodyName& name = scene.contact.pairs[i].between[k];
+      const std::string place = fmt::format("contact.pair.{}.between.{}", i + 1, k + 1);
+      find(name, place, "body or collider");
+      const auto number = [&] { return std::stoul(name.place.substr(name.place.find('.') + 1)) - 1; };
+      if (name.place.starts_with("springs"))
+        v.problem(place, "is a body of springs, which has no surface; they touch colliders of simple shapes only");
+      if (name.place.starts_with("collider") && scene.colliders[number()].shape != ColliderShape::kMesh)
+        v.problem(place, "is a collider of a simple shape, whose friction is its own; pairs are for bodies and mesh "
+                         "colliders");
+    }
 }
 
 }  // namespace softreel::assets

@@ -26,6 +26,8 @@ void walk(KeyVisitor& v, Load& load);
 void walk(KeyVisitor& v, Attach& attach);
 void walk(KeyVisitor& v, Gusts& gusts);
 void walk(KeyVisitor& v, Wind& wind);
+void walk(KeyVisitor& v, BodyContact& contact);
+void walk(KeyVisitor& v, ContactPair& pair);
 void walk(KeyVisitor& v, Contact& contact);
 void walk(KeyVisitor& v, Damping& damping);
 void walk(KeyVisitor& v, Reference& reference);

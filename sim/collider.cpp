@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace softreel::sim {
 namespace {
@@ -15,6 +16,10 @@ struct DistanceFrom {
   const Eigen::Vector3d& p;
 
   SignedDistance operator()(const PlaneShape&) const { return {p.y(), Eigen::Vector3d::UnitY()}; }
+
+  SignedDistance operator()(const SurfaceShape&) const {
+    return {std::numeric_limits<double>::infinity(), Eigen::Vector3d::UnitY()};
+  }
 
   SignedDistance operator()(const SphereShape& s) const { return from_point(p, s.radius); }
 

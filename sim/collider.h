@@ -19,7 +19,9 @@ struct CapsuleShape {
   double radius = 1;  ///< [m] > 0
   double half = 1;    ///< half length of the axis [m] >= 0
 };
-using ColliderShape = std::variant<PlaneShape, SphereShape, BoxShape, CapsuleShape>;
+/// A mesh, which is among the contact surfaces (contact/contact_surfaces.h) and has no distance here: infinitely far.
+struct SurfaceShape {};
+using ColliderShape = std::variant<PlaneShape, SphereShape, BoxShape, CapsuleShape, SurfaceShape>;
 
 struct SignedDistance {
   double distance = 0;     ///< [m], negative inside

@@ -115,6 +115,7 @@ void SurfaceContact::set_progress(double progress) { progress_ = progress; }
 
 void SurfaceContact::begin_step(const StepContext& context) {
   path_ = surfaces_->collider_path(context.t, context.t_forces);
+  duration_ = context.t_forces - context.t;
   colliders_move_ = false;
   for (size_t v = 0; v < path_.from.size(); ++v) colliders_move_ = colliders_move_ || path_.from[v] != path_.to[v];
   if (settings_.stiffness <= 0) {
@@ -344,6 +345,26 @@ SurfaceContactReport SurfaceContact::report(const Eigen::VectorXd& x) const {
     report.deepest = std::max(report.deepest, 1 - p.gap() / p.penalty.reach);
   }
   return report;
+}
+
+SlidingCount SurfaceContact::count_sliding(const Eigen::VectorXd& x, const Eigen::VectorXd& v,
+                                           double slip_speed) const {
+  SlidingCount count;
+  for (const ActivePair& p : active(x)) {
+    if (surfaces_->pairs[static_cast<size_t>(p.candidate.pair)].friction <= 0) continue;
+    const Vec3 n = p.closest.r / p.closest.distance;
+    Vec3 u = Vec3::Zero();
+    for (size_t i = 0; i < 4; ++i) {
+      const int k = surfaces_->state_vertex[static_cast<size_t>(p.vertices[i])];
+      if (k >= 0)
+        u += p.closest.weights[i] * v.segment<3>(3 * k);
+      else if (duration_ > 0)
+        u += p.closest.weights[i] / duration_ * collider_move(p.vertices[i]);
+    }
+    u -= n.dot(u) * n;
+    ++(u.norm() < slip_speed ? count.sticks : count.slips);
+  }
+  return count;
 }
 
 std::vector<double> SurfaceContact::memory() const {

@@ -41,6 +41,11 @@ struct SurfaceContactReport {
   double deepest = 0;        ///< deepest intrusion into the contact distance, as a share of it
 };
 
+/// Touches that hold, and that slide.
+struct SlidingCount {
+  long sticks = 0, slips = 0;
+};
+
 /// E = sum of psi over all pairs of features within d_hat. Its stencils change with the positions: `select`.
 ///
 /// The stiffness of a pair is that of the lighter side, k = (100 m/h^2 + K)/d_hat, K the stiffness of the material
@@ -101,6 +106,8 @@ class SurfaceContact final : public EnergyTerm {
   double stiffening_energy() const { return stiffening_energy_; }
 
   SurfaceContactReport report(const Eigen::VectorXd& x) const;
+  /// Of the touches with friction at x, by their speeds across the normal at velocities v (3n).
+  SlidingCount count_sliding(const Eigen::VectorXd& x, const Eigen::VectorXd& v, double slip_speed) const;
 
   std::vector<double> memory() const;
   /// Returns what of `saved` was not its own.
@@ -122,6 +129,7 @@ class SurfaceContact final : public EnergyTerm {
   bool at_bound_ = false;
   double stiffening_energy_ = 0;
   ContactSurfaces::ColliderPath path_;
+  double duration_ = 0;  // of the path [s]
   bool colliders_move_ = false;
   double progress_ = 1;
   Eigen::VectorXd x_start_;

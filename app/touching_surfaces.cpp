@@ -1,0 +1,217 @@
+#include "app/touching_surfaces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "app/world.h"
+#include "assets/crossing_pairs.h"
+#include "assets/error.h"
+
+namespace softreel::app {
+namespace {
+
+using sim::Vec3;
+
+int mesh_colliders(const assets::Scene& scene) {
+  return static_cast<int>(std::count_if(scene.colliders.begin(), scene.colliders.end(), [](const assets::Collider& c) {
+    return c.shape == assets::ColliderShape::kMesh;
+  }));
+}
+
+bool asks_for_self(const assets::Scene& scene) {
+  const auto own = [](const assets::Body& body) { return body.contact.self; };
+  const auto twice = [](const assets::ContactPair& p) { return p.touch && p.between[0].name == p.between[1].name; };
+  return std::any_of(scene.soft.begin(), scene.soft.end(), own) ||
+         std::any_of(scene.cloth.begin(), scene.cloth.end(), own) ||
+         std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(), twice);
+}
+
+template <class Visit>
+void for_each_touching_body(const assets::Scene& scene, const Visit& visit) {
+  for (size_t i = 0; i < scene.soft.size(); ++i) visit(fmt::format("soft.{}", i + 1), scene.soft[i]);
+  for (size_t i = 0; i < scene.cloth.size(); ++i) visit(fmt::format("cloth.{}", i + 1), scene.cloth[i]);
+}
+
+std::vector<Vec3> positions_of(const sim::ContactSurfaces& surfaces, const Eigen::VectorXd& x, double t) {
+  std::vector<Vec3> result;
+  surfaces.gather(x, surfaces.collider_path(t, t), 0, result);
+  return result;
+}
+
+[[noreturn]] void refuse(const assets::Scene& scene, const std::string& why) {
+  throw assets::UserError(assets::ErrorKind::kUsage, scene.file.string(), why);
+}
+
+std::string list_of(const sim::ContactSurfaces& surfaces, const std::vector<Crossing>& found) {
+  std::string list;
+  for (const Crossing& c : found) {
+    const auto name = [&](int s) { return surfaces.surfaces[static_cast<size_t>(s)].name; };
+    list += fmt::format("{}'{}' and {} ({} pair{} of triangles)", list.empty() ? "" : ", ", name(c.first),
+                        c.first == c.second ? "itself" : fmt::format("'{}'", name(c.second)), c.pairs, c.pairs == 1 ? "" : "s");
+  }
+  return list;
+}
+
+/// Surfaces and bodies of the state they belong to, while bodies are moved.
+class Separation {
+ public:
+  Separation(const sim::ContactSurfaces& surfaces, sim::Model& model) : surfaces_(surfaces), model_(model) {}
+
+  /// The body that surface s belongs to; null: a collider, or a body that pins hold.
+  const sim::BodyRange* movable(int s) const {
+    const sim::ContactSurface& surface = surfaces_.surfaces[static_cast<size_t>(s)];
+    if (surface.collider || surface.count == 0) return nullptr;
+    const int vertex = surfaces_.state_vertex[static_cast<size_t>(surface.first)];
+    for (const sim::BodyRange& body : model_.bodies) {
+      if (vertex < body.first || vertex >= body.first + body.count) continue;
+      const bool pinned = std::any_of(model_.pins.begin(), model_.pins.end(), [&](const sim::Pin& pin) {
+        return std::any_of(pin.vertices.begin(), pin.vertices.end(),
+                           [&](int v) { return v >= body.first && v < body.first + body.count; });
+      });
+      return pinned ? nullptr : &body;
+    }
+    return nullptr;
+  }
+
+  /// The shortest way along an axis that takes `body` clear of surface `other`, with `gap` between their boxes.
+  Vec3 way_out(int own, int other, double gap) const {
+    const Eigen::AlignedBox3d a = box(own), b = box(other);
+    Vec3 best = Vec3::Constant(1e300);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int side : {1, -1}) {
+        const double length = side > 0 ? b.max()(axis) + gap - a.min()(axis) : a.max()(axis) + gap - b.min()(axis);
+        // Upwards among equals: what lies below is often the ground.
+        const double price = length * (axis == 1 && side > 0 ? 1 : 1.001);
+        if (length > 0 && price < best.norm()) best = side * length * Vec3::Unit(axis);
+      }
+    return best;
+  }
+
+  void move(const sim::BodyRange& body, const Vec3& by) {
+    for (int v = body.first; v < body.first + body.count; ++v) model_.x0.segment<3>(3 * v) += by;
+  }
+
+ private:
+  Eigen::AlignedBox3d box(int s) const {
+    const std::vector<Vec3> x = positions_of(surfaces_, model_.x0, 0);
+    const sim::ContactSurface& surface = surfaces_.surfaces[static_cast<size_t>(s)];
+    Eigen::AlignedBox3d result;
+    for (int v = surface.first; v < surface.first + surface.count; ++v) result.extend(x[static_cast<size_t>(v)]);
+    return result;
+  }
+
+  const sim::ContactSurfaces& surfaces_;
+  sim::Model& model_;
+};
+
+}  // namespace
+
+bool has_touching_surfaces(const assets::Scene& scene) {
+  const auto bodies = scene.soft.size() + scene.cloth.size();
+  return bodies > 0 && (bodies + static_cast<size_t>(mesh_colliders(scene)) > 1 || asks_for_self(scene));
+}
+
+void add_touching_surfaces(const assets::Scene& scene, const Shapes& shapes, const std::vector<PlacedBody>& bodies,
+                           sim::ModelBuilder& builder) {
+  if (!has_touching_surfaces(scene)) return;
+  std::vector<sim::SurfaceInput> surfaces;
+  std::map<std::string, int> number;  // by place
+  for_each_touching_body(scene, [&](const std::string& place, const assets::Body& body) {
+    const PlacedBody& placed =
+        *std::find_if(bodies.begin(), bodies.end(), [&](const PlacedBody& b) { return b.place == place; });
+    number[place] = static_cast<int>(surfaces.size());
+    surfaces.push_back({body.name, placed.range.first, *placed.rest, placed.surface(), {}, body.contact.thickness,
+                        body.contact.friction.value_or(scene.contact.friction),
+                        body.contact.self, body.contact.others});
+  });
+  for (size_t i = 0; i < scene.colliders.size(); ++i) {
+    const assets::Collider& c = scene.colliders[i];
+    if (c.shape != assets::ColliderShape::kMesh) continue;
+    number[fmt::format("collider.{}", i + 1)] = static_cast<int>(surfaces.size());
+    const sim::TriangleMesh& mesh = shapes.colliders[i]->rest;
+    surfaces.push_back(
+        {c.name, -1, mesh.vertices, mesh.triangles, make_collider(c).motion, c.thickness, c.friction, false, true});
+  }
+  std::vector<sim::SurfacePairRule> rules;
+  const auto rule_of = [&](const assets::BodyName& a, const assets::BodyName& b) {
+    sim::SurfacePairRule rule;
+    rule.a = number.at(a.place);
+    rule.b = number.at(b.place);
+    return rule;
+  };
+  const auto said = [&](const assets::Attach& attach) {
+    return std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(), [&](const assets::ContactPair& p) {
+      return std::minmax(p.between[0].place, p.between[1].place) ==
+             std::minmax(attach.bodies[0].place, attach.bodies[1].place);
+    });
+  };
+  for (const assets::Attach& attach : scene.attachments) {
+    if (!number.contains(attach.bodies[0].place) || !number.contains(attach.bodies[1].place)) continue;
+    sim::SurfacePairRule rule = rule_of(attach.bodies[0], attach.bodies[1]);
+    rule.touch = said(attach);
+    rule.tied = true;
+    rules.push_back(rule);
+  }
+  for (const assets::ContactPair& pair : scene.contact.pairs) {
+    sim::SurfacePairRule rule = rule_of(pair.between[0], pair.between[1]);
+    rule.touch = pair.touch;
+    rule.friction = pair.friction.value_or(-1);
+    rule.thickness = pair.thickness.value_or(-1);
+    rules.push_back(rule);
+  }
+  builder.set_surfaces(std::move(surfaces), std::move(rules));
+}
+
+std::vector<Crossing> crossings(const sim::ContactSurfaces& surfaces, const Eigen::VectorXd& x, double t) {
+  std::vector<int> surface_of_triangle;
+  for (size_t s = 0; s < surfaces.surfaces.size(); ++s)
+    surface_of_triangle.insert(surface_of_triangle.end(), static_cast<size_t>(surfaces.surfaces[s].triangle_count),
+                               static_cast<int>(s));
+  std::map<std::pair<int, int>, long> count;
+  for (const sim::SurfacePair& pair : surfaces.pairs) count[{pair.a, pair.b}] = 0;
+  constexpr size_t kMost = 1000000;
+  for (const auto& [t1, t2] : assets::crossing_pairs({positions_of(surfaces, x, t), surfaces.triangles}, kMost)) {
+    const int a = surface_of_triangle[static_cast<size_t>(t1)], b = surface_of_triangle[static_cast<size_t>(t2)];
+    const auto it = count.find({std::min(a, b), std::max(a, b)});
+    if (it != count.end()) ++it->second;
+  }
+  std::vector<Crossing> result;
+  for (const auto& [pair, pairs] : count)
+    if (pairs > 0) result.push_back({pair.first, pair.second, pairs});
+  return result;
+}
+
+void settle_overlaps(const assets::Scene& scene, sim::Model& model) {
+  if (!model.surfaces) return;
+  const sim::ContactSurfaces& surfaces = model.surfaces->surfaces();
+  std::vector<Crossing> found = crossings(surfaces, model.x0, 0);
+  if (found.empty()) return;
+  const std::string list = list_of(surfaces, found);
+  if (!scene.contact.resolve_overlap)
+    refuse(scene, fmt::format("surfaces cross in the first frame: {}. Move them apart (translate), set "
+                              "contact.resolve_overlap = true to have whole bodies moved, or let the two pass through "
+                              "each other ([[contact.pair]] between = [...], touch = false)",
+                              list));
+  Separation separation(surfaces, model);
+  constexpr int kMostMoves = 100;
+  for (int moves = 0; !found.empty(); ++moves) {
+    const Crossing& c = found.front();
+    // The second of the two, if it can move: scenes are written from the ground up.
+    int own = c.second, other = c.first;
+    if (!separation.movable(own)) std::swap(own, other);
+    const sim::BodyRange* body = c.first == c.second ? nullptr : separation.movable(own);
+    if (!body || moves == kMostMoves)
+      refuse(scene, fmt::format("surfaces cross in the first frame, and contact.resolve_overlap cannot move them apart "
+                                "as whole bodies: {}",
+                                list_of(surfaces, found)));
+    const double gap = surfaces.surfaces[static_cast<size_t>(own)].half_thickness +
+                       surfaces.surfaces[static_cast<size_t>(other)].half_thickness + scene.contact.distance;
+    separation.move(*body, separation.way_out(own, other, gap));
+    found = crossings(surfaces, model.x0, 0);
+  }
+}
+
+}  // namespace softreel::app
