@@ -11,8 +11,16 @@ namespace {
 constexpr int kLeaf = 4;     // triangles
 constexpr int kParts = 128;  // of a search, about
 
-float down(double value) { return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity()); }
-float up(double value) { return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity()); }
+// Outwards by one to two units in the last place, without a call.
+constexpr float kUlp = 2 * std::numeric_limits<float>::epsilon(), kTiny = std::numeric_limits<float>::min();
+float down(double value) {
+  const auto nearest = static_cast<float>(value);
+  return nearest - kUlp * std::abs(nearest) - kTiny;
+}
+float up(double value) {
+  const auto nearest = static_cast<float>(value);
+  return nearest + kUlp * std::abs(nearest) + kTiny;
+}
 
 double area(const Box3f& box) {
   const Eigen::Array3d size = (box.upper - box.lower).cast<double>();

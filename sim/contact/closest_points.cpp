@@ -53,17 +53,19 @@ OnTriangle on_triangle(const FourPoints& x) {
 }
 
 // The distance is a convex function of (s, t): its minimum over the square is inside, or on one of the four sides.
+// Ericson 2005, section 5.1.9, where the edges are not nearly parallel.
 OnEdges on_edges(const FourPoints& x) {
   const Vector3d u = x[1] - x[0], v = x[3] - x[2], between = x[0] - x[2];
   const auto at = [&](double s, double t) { return OnEdges{s, t, between + s * u - t * v}; };
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ub = u.dot(between), vb = v.dot(between);
   const double det = uu * vv - uv * uv;
-  if (det > 0) {
-    const double s = (uv * vb - vv * ub) / det;
-    if (s > 0 && s < 1) {
-      const double t = (uv * s + vb) / vv;
-      if (t > 0 && t < 1 && det > 1e-10 * uu * vv) return at(s, t);
+  if (det > 1e-10 * uu * vv) {
+    double s = std::clamp((uv * vb - vv * ub) / det, 0.0, 1.0), t = (uv * s + vb) / vv;
+    if (t < 0 || t > 1) {
+      t = t < 0 ? 0 : 1;
+      s = std::clamp((uv * t - ub) / uu, 0.0, 1.0);
     }
+    return at(s, t);
   }
   OnEdges best = at(0, along(x[0], x[2], x[3]));
   const auto consider = [&](const OnEdges& other) {
@@ -72,7 +74,7 @@ OnEdges on_edges(const FourPoints& x) {
   consider(at(1, along(x[1], x[2], x[3])));
   consider(at(along(x[2], x[0], x[1]), 0));
   consider(at(along(x[3], x[0], x[1]), 1));
-  if (det > 0) {  // nearly parallel: s has lost its digits, and what is left of them must not make it worse
+  if (det > 0) {  // s has lost its digits, and what is left of them must not make it worse
     const double s = (uv * vb - vv * ub) / det;
     if (s > 0 && s < 1) {
       const double t = (uv * s + vb) / vv;

@@ -13,6 +13,8 @@
 namespace softreel::sim {
 namespace {
 
+// A pair that is as stiff as ten times what its vertices are made of gives a tenth of what these give.
+constexpr double kMaterialShare = 10;
 constexpr double kNearGap = 0.1;  // of d_hat: a solve that ends nearer is taken again with more stiffness
 constexpr int kHighestLevel = 10;
 constexpr int kChunk = 512;  // candidates that one task looks at
@@ -120,7 +122,7 @@ void SurfaceContact::begin_step(const StepContext& context) {
   for (size_t v = 0; v < path_.from.size(); ++v) colliders_move_ = colliders_move_ || path_.from[v] != path_.to[v];
   if (settings_.stiffness <= 0) {
     const double inertia = settings_.hardness / (context.h_nominal * context.h_nominal);
-    for (size_t v = 0; v < base_.size(); ++v) base_[v] = (inertia * mass_[v] + material_[v]) / settings_.distance;
+    for (size_t v = 0; v < base_.size(); ++v) base_[v] = (inertia * mass_[v] + kMaterialShare * material_[v]) / settings_.distance;
   }
   x_start_ = context.x;
   active_progress_ = -1;

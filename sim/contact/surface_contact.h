@@ -48,7 +48,7 @@ struct SlidingCount {
 
 /// E = sum of psi over all pairs of features within d_hat. Its stencils change with the positions: `select`.
 ///
-/// The stiffness of a pair is that of the lighter side, k = (100 m/h^2 + K)/d_hat, K the stiffness of the material
+/// The stiffness of a pair is that of the lighter side, k = (100 m/h^2 + 10 K)/d_hat, K the stiffness of the material
 /// around; it is frozen within a solve. Where that does not hold (continuous collision detection blocks a solve, or it
 /// ends with a gap below 0.1 d_hat), `stiffen` quadruples it at the vertices concerned, and the step is solved again;
 /// vertices that have come free soften step by step.
