@@ -77,8 +77,8 @@ class IncrementalPotential {
   Stage stage_;
   Eigen::VectorXd velocity_, offset_, stiffness_, target_;
   double progress_ = 1;
-  static constexpr int kMostShortSteps = 8;
-  static constexpr double kShortStep = 0.02;
+  static constexpr int kMostShortSteps = 3;
+  static constexpr double kShortStep = 0.05;
   int short_steps_ = 0;
 };
 

@@ -20,8 +20,6 @@ class SurfaceFriction final : public EnergyTerm {
   void begin_step(const StepContext& context) override {
     touches_.clear();
     stencils_.clear();
-    // As between bodies and colliders: what bodies were placed with has not pushed anything yet.
-    if (context.t <= 0) return;
     const ContactSurfaces& surfaces = contact_.surfaces();
     const double duration = context.t_forces - context.t;
     for (const ActivePair& pair : contact_.touching()) {

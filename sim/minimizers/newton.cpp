@@ -8,8 +8,8 @@
 namespace softreel::sim {
 namespace {
 
-constexpr int kClampedIterations = 8;  // of a solve, after which clamping may be what slows it down
-constexpr int kClampedAgain = 4;       // after an exact Hessian that was indefinite
+constexpr int kClampedIterations = 4;  // of a solve, after which clamping may be what slows it down
+constexpr int kClampedAgain = 2;       // after an exact Hessian that was indefinite
 constexpr int kLongestMistrust = 31;   // solves that begin clamped, after exact ones that were indefinite
 constexpr int kMostProposals = 4;      // of a direction in one iteration
 // A linear solve goes as far as the whole step needs, but no further than its own matrix is worth: the next Newton
