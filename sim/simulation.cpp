@@ -231,8 +231,8 @@ void Simulation::solve(const Eigen::VectorXd& target, double progress, const Eig
   }
   if (report.converged) return;
   if (surfaces->at_bound())
-    report.reason = surfaces->blocking() + " are pressed together harder than contact can hold: what is driven (pins, " +
-                    "colliders with a motion) leaves them no room";
+    report.reason = surfaces->blocking() + " are pressed together harder than contact can hold" +
+                    (driven_ ? ": what is driven (pins, colliders with a motion) leaves them no room" : " in one step");
   else if (phi_->blocked())
     report.reason += ": " + surfaces->blocking();
 }
