@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/touching_surfaces.h"
+#include "assets/scene_contact.h"
 #include "assets/scene_names.h"
 #include "assets/tet_file.h"
 #include "sim/simulation.h"
@@ -62,14 +62,14 @@ std::vector<BillItem> bill_of(const Scene& s) {
   const auto simple = count(s.colliders, [](const Collider& c) { return c.shape != ColliderShape::kMesh; });
   add("contact with colliders", simple > 0, number(simple, "collider", "colliders"),
       s.colliders.empty() ? "there is no collider" : "colliders are meshes, which are among the surfaces");
-  const auto touchable = s.soft.size() + s.cloth.size() + static_cast<size_t>(count(s.colliders, [](const Collider& c) {
-                          return c.shape == ColliderShape::kMesh;
-                        }));
+  const auto touchable =
+      s.soft.size() + s.cloth.size() +
+      static_cast<size_t>(count(s.colliders, [](const Collider& c) { return c.shape == ColliderShape::kMesh; }));
   const bool touching = has_touching_surfaces(s);
   add("contact between surfaces", touching,
       touchable > 1 ? number(touchable, "surface", "surfaces") : "a body touches itself",
       touchable > 0 ? "a single surface, which does not ask for contact with itself"
-                             : "there is no surface that could touch another");
+                    : "there is no surface that could touch another");
   const bool still = s.time.integrator == "static";
   add("friction", !still && count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0,
       "some colliders are rough",

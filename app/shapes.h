@@ -36,12 +36,12 @@ struct SpringShape {
 };
 
 struct Shapes {
-  std::vector<SolidShape> soft;      ///< as scene.soft
-  std::vector<ClothShape> cloth;     ///< as scene.cloth
-  std::vector<SpringShape> springs;  ///< as scene.springs
-  std::vector<ClothShape> fields;    ///< as scene.fields
+  std::vector<SolidShape> soft;                      ///< as scene.soft
+  std::vector<ClothShape> cloth;                     ///< as scene.cloth
+  std::vector<SpringShape> springs;                  ///< as scene.springs
+  std::vector<ClothShape> fields;                    ///< as scene.fields
   std::vector<std::optional<ClothShape>> colliders;  ///< as scene.colliders; nothing for simple shapes
-  std::vector<std::string> notes;    ///< what the user should know (textures not found, triangles left out)
+  std::vector<std::string> notes;  ///< what the user should know (textures not found, triangles left out)
   double tetrahedralize_seconds = 0;
   bool used_tetgen = false;      ///< a surface had to be filled
   bool tets_from_cache = false;  ///< and all of them were in the cache

@@ -9,25 +9,12 @@
 #include "app/world.h"
 #include "assets/crossing_pairs.h"
 #include "assets/error.h"
+#include "assets/scene_contact.h"
 
 namespace softreel::app {
 namespace {
 
 using sim::Vec3;
-
-int mesh_colliders(const assets::Scene& scene) {
-  return static_cast<int>(std::count_if(scene.colliders.begin(), scene.colliders.end(), [](const assets::Collider& c) {
-    return c.shape == assets::ColliderShape::kMesh;
-  }));
-}
-
-bool asks_for_self(const assets::Scene& scene) {
-  const auto own = [](const assets::Body& body) { return body.contact.self; };
-  const auto twice = [](const assets::ContactPair& p) { return p.touch && p.between[0].name == p.between[1].name; };
-  return std::any_of(scene.soft.begin(), scene.soft.end(), own) ||
-         std::any_of(scene.cloth.begin(), scene.cloth.end(), own) ||
-         std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(), twice);
-}
 
 template <class Visit>
 void for_each_touching_body(const assets::Scene& scene, const Visit& visit) {
@@ -50,7 +37,8 @@ std::string list_of(const sim::ContactSurfaces& surfaces, const std::vector<Cros
   for (const Crossing& c : found) {
     const auto name = [&](int s) { return surfaces.surfaces[static_cast<size_t>(s)].name; };
     list += fmt::format("{}'{}' and {} ({} pair{} of triangles)", list.empty() ? "" : ", ", name(c.first),
-                        c.first == c.second ? "itself" : fmt::format("'{}'", name(c.second)), c.pairs, c.pairs == 1 ? "" : "s");
+                        c.first == c.second ? "itself" : fmt::format("'{}'", name(c.second)), c.pairs,
+                        c.pairs == 1 ? "" : "s");
   }
   return list;
 }
@@ -109,23 +97,24 @@ class Separation {
 
 }  // namespace
 
-bool has_touching_surfaces(const assets::Scene& scene) {
-  const auto bodies = scene.soft.size() + scene.cloth.size();
-  return bodies > 0 && (bodies + static_cast<size_t>(mesh_colliders(scene)) > 1 || asks_for_self(scene));
-}
-
 void add_touching_surfaces(const assets::Scene& scene, const Shapes& shapes, const std::vector<PlacedBody>& bodies,
                            sim::ModelBuilder& builder) {
-  if (!has_touching_surfaces(scene)) return;
+  if (!assets::has_touching_surfaces(scene)) return;
   std::vector<sim::SurfaceInput> surfaces;
   std::map<std::string, int> number;  // by place
   for_each_touching_body(scene, [&](const std::string& place, const assets::Body& body) {
     const PlacedBody& placed =
         *std::find_if(bodies.begin(), bodies.end(), [&](const PlacedBody& b) { return b.place == place; });
     number[place] = static_cast<int>(surfaces.size());
-    surfaces.push_back({body.name, placed.range.first, *placed.rest, placed.surface(), {}, body.contact.thickness,
+    surfaces.push_back({body.name,
+                        placed.range.first,
+                        *placed.rest,
+                        placed.surface(),
+                        {},
+                        body.contact.thickness,
                         body.contact.friction.value_or(scene.contact.friction),
-                        body.contact.self, body.contact.others});
+                        body.contact.self,
+                        body.contact.others});
   });
   for (size_t i = 0; i < scene.colliders.size(); ++i) {
     const assets::Collider& c = scene.colliders[i];

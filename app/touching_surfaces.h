@@ -10,12 +10,8 @@
 
 namespace softreel::app {
 
-/// Is there contact between surfaces in the scene? Two bodies can meet, and a body and a mesh collider; a body meets
-/// itself where it is asked for.
-bool has_touching_surfaces(const assets::Scene& scene);
-
-/// Hands the surfaces to `builder`, if there is contact between any. Bodies that are tied together do not touch, unless a
-/// pair of [contact] says that they do.
+/// Hands the surfaces to `builder`, if there is contact between any. Bodies that are tied together do not touch, unless
+/// a pair of [contact] says that they do.
 void add_touching_surfaces(const assets::Scene& scene, const Shapes& shapes, const std::vector<PlacedBody>& bodies,
                            sim::ModelBuilder& builder);
 

@@ -319,9 +319,9 @@ struct ContactPair {
 };
 
 struct Contact {
-  bool self = false;                ///< does every cloth and soft body touch itself?
-  double friction = 0.3;            ///< between surfaces of bodies, whose own it is where they give none [-]
-  bool resolve_overlap = false;     ///< bodies that overlap in the first frame are moved apart, not refused
+  bool self = false;             ///< does every cloth and soft body touch itself?
+  double friction = 0.3;         ///< between surfaces of bodies, whose own it is where they give none [-]
+  bool resolve_overlap = false;  ///< bodies that overlap in the first frame are moved apart, not refused
   std::vector<ContactPair> pairs;
   double distance = 2e-3;           ///< at which the penalty begins [m]
   double slip_speed = 1e-3;         ///< below which friction holds [m/s]

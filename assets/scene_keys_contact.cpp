@@ -17,8 +17,7 @@ void walk(KeyVisitor& v, BodyContact& c) {
 void walk(KeyVisitor& v, ContactPair& p) {
   v.key({"between", kPhysics, "", {}, "two soft bodies, cloths or mesh colliders; one twice: with itself"}, &p.between);
   v.key({"touch", kPhysics, "", {}, "false: they pass through each other"}, &p.touch);
-  v.key({"friction", kPhysics, "", at_least(0, 100),
-         "Coulomb's coefficient; left out, the geometric mean of the two"},
+  v.key({"friction", kPhysics, "", at_least(0, 100), "Coulomb's coefficient; left out, the geometric mean of the two"},
         &p.friction);
   v.key({"thickness", kPhysics, "m", at_least(0, 1e3), "their distance when they touch; left out, half of each"},
         &p.thickness);
@@ -29,7 +28,10 @@ void walk(KeyVisitor& v, Contact& c) {
   v.key({"self", kPhysics, "", {}, "whether soft bodies and cloths touch themselves"}, &c.self);
   v.key({"friction", kPhysics, "", at_least(0, 100), "Coulomb's coefficient between the surfaces of bodies"},
         &c.friction);
-  v.key({"resolve_overlap", kPhysics, "", {},
+  v.key({"resolve_overlap",
+         kPhysics,
+         "",
+         {},
          "bodies that overlap in the first frame are moved apart; otherwise they are refused"},
         &c.resolve_overlap);
   v.list({"pair", "what is different between two surfaces"}, keys_of(c.pairs));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 
+#include "assets/scene_contact.h"
 #include "assets/scene_limits.h"
 #include "assets/scene_nearest.h"
 #include "sim/catalogue.h"
@@ -126,6 +127,16 @@ void check_consistent_mass(KeyVisitor& v, const Scene& scene) {
 }
 
 // No mistakes: a scene is often run with one method and then with another.
+void note_contact(KeyVisitor& v, const Scene& scene) {
+  const std::string& method = scene.time.integrator;
+  if (!has_touching_surfaces(scene) || method == "implicit-euler" || method == "bdf2" || method == "newmark") return;
+  v.note(
+      v.given("time.integrator") ? "time.integrator" : "time",
+      fmt::format("surfaces touch, and {} can step through them: such a step is taken in halves, then the run stops. "
+                  "implicit-euler, bdf2 and newmark cannot",
+                  method));
+}
+
 void note_no_effect(KeyVisitor& v, const Scene& scene) {
   const bool bodies = !scene.soft.empty() || !scene.cloth.empty() || !scene.springs.empty();
   if (v.given("solver") && bodies && !sim::is_implicit(scene.time.integrator))
@@ -188,6 +199,7 @@ void check(KeyVisitor& v, Scene& scene) {
   check_accuracy(v, scene);
   check_consistent_mass(v, scene);
   check_field_integrators(v, scene);
+  note_contact(v, scene);
   note_no_effect(v, scene);
 }
 

@@ -155,8 +155,9 @@ void check_references(KeyVisitor& v, Scene& scene) {
       if (name.place.starts_with("springs"))
         v.problem(place, "is a body of springs, which has no surface; they touch colliders of simple shapes only");
       if (name.place.starts_with("collider") && scene.colliders[number()].shape != ColliderShape::kMesh)
-        v.problem(place, "is a collider of a simple shape, whose friction is its own; pairs are for bodies and mesh "
-                         "colliders");
+        v.problem(place,
+                  "is a collider of a simple shape, whose friction is its own; pairs are for bodies and mesh "
+                  "colliders");
     }
 }
 

@@ -47,9 +47,7 @@ void AutoSolver::analyse_factor() {
 void AutoSolver::factorize(const BlockMatrix& A) { A_ = &A; }
 
 /// Iterations that cost as much as a factorization.
-long AutoSolver::affordable() {
-  return std::max(10L, static_cast<long>(cholesky_work() / iteration_work()));
-}
+long AutoSolver::affordable() { return std::max(10L, static_cast<long>(cholesky_work() / iteration_work())); }
 
 LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
   if (A_->rows() > kSmall && (!direct_ || ++direct_solves_ > pause_)) {

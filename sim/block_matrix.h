@@ -11,7 +11,7 @@ struct BlockMatrix {
   std::vector<int> diagonal;   ///< position of block (i, i)
   std::vector<double> values;  ///< 9 doubles per block, column-major; room for one more at the end
 
-  long pattern = 0;            ///< another number, another sparsity pattern
+  long pattern = 0;  ///< another number, another sparsity pattern
 
   int rows() const { return static_cast<int>(diagonal.size()); }  ///< block rows n
   Eigen::Map<Eigen::Matrix3d> block(int k) { return Eigen::Map<Eigen::Matrix3d>(values.data() + 9 * size_t(k)); }

@@ -63,8 +63,8 @@ void ChangingBlocks::add(const BlockMatrix& fixed, std::span<const ScaledTerm> t
     start.push_back(doubles);
     if (s.scale == 0) continue;
     s.term->select(*s.at);
-    doubles += static_cast<size_t>(stencil_count(*s.term)) *
-               static_cast<size_t>(hessian_doubles(s.term->stencil_size()));
+    doubles +=
+        static_cast<size_t>(stencil_count(*s.term)) * static_cast<size_t>(hessian_doubles(s.term->stencil_size()));
   }
   blocks_.resize(doubles);
   std::vector<Place> needed;
@@ -83,8 +83,9 @@ void ChangingBlocks::add(const BlockMatrix& fixed, std::span<const ScaledTerm> t
     const int count = stencil_count(*s.term), size = hessian_doubles(s.term->stencil_size());
     parallel_tasks((count + kBatch - 1) / kBatch, [&](int task) {
       const StencilRange range{task * kBatch, std::min(kBatch, count - task * kBatch)};
-      s.term->element_hessians(*s.at, s.scale, definiteness, range,
-                               blocks_.data() + start[t] + static_cast<size_t>(range.first) * static_cast<size_t>(size));
+      s.term->element_hessians(
+          *s.at, s.scale, definiteness, range,
+          blocks_.data() + start[t] + static_cast<size_t>(range.first) * static_cast<size_t>(size));
     });
     for_each_block(s, [&](int i, int j, size_t) {
       if (i != j && find(fixed, i, j) < 0) needed.push_back({std::min(i, j), std::max(i, j)});
@@ -108,9 +109,8 @@ void ChangingBlocks::add(const BlockMatrix& fixed, std::span<const ScaledTerm> t
     H.values.resize(pattern_.column.size() * 9 + 1);
   }
   std::fill(H.values.begin(), H.values.end(), 0.0);
-  parallel_for(static_cast<int>(from_.size()), Work::kVector, [&](int k) {
-    H.block(from_[static_cast<size_t>(k)]) = fixed.block(k);
-  });
+  parallel_for(static_cast<int>(from_.size()), Work::kVector,
+               [&](int k) { H.block(from_[static_cast<size_t>(k)]) = fixed.block(k); });
   for (size_t t = 0; t < terms.size(); ++t) {
     if (terms[t].scale == 0) continue;
     for_each_block(terms[t], [&](int i, int j, size_t block) {

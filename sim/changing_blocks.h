@@ -26,10 +26,10 @@ class ChangingBlocks {
   };
   void lay_out(const BlockMatrix& fixed);
 
-  BlockMatrix pattern_;        // without values
-  std::vector<int> from_;      // of each block of the fixed matrix: where it is in pattern_
-  std::vector<Place> extra_;   // blocks (i, j), i < j, beyond those of the fixed matrix, sorted
-  long fixed_blocks_ = -1;     // of the matrix that pattern_ was made for
+  BlockMatrix pattern_;       // without values
+  std::vector<int> from_;     // of each block of the fixed matrix: where it is in pattern_
+  std::vector<Place> extra_;  // blocks (i, j), i < j, beyond those of the fixed matrix, sorted
+  long fixed_blocks_ = -1;    // of the matrix that pattern_ was made for
   bool fresh_ = true;
   long patterns_ = 0;
   std::vector<double> blocks_;

@@ -49,9 +49,7 @@ class ColliderFriction final : public EnergyTerm {
   double value(const Eigen::VectorXd& v) const override {
     return parallel_sum(vertices(), Work::kRow, [&](int i) {
       double sum = 0;
-      visit(i, [&](const Touch& touch) {
-        sum += touch.limit * law_.value(slip(touch, v, i).norm());
-      });
+      visit(i, [&](const Touch& touch) { sum += touch.limit * law_.value(slip(touch, v, i).norm()); });
       return sum;
     });
   }

@@ -64,7 +64,8 @@ class EnergyTerm {
 
   /// Vertices per stencil k (1 to kMostVertices); 0 for a term without a Hessian (a linear function).
   virtual int stencil_size() const { return 0; }
-  /// Vertex indices, k per stencil; -1 (with changing stencils only): not a vertex of the state, nothing is added there.
+  /// Vertex indices, k per stencil; -1 (with changing stencils only): not a vertex of the state, nothing is added
+  /// there.
   virtual std::span<const int> stencils() const { return {}; }
   /// True if the stencils depend on the positions; `select` then makes them those of q.
   virtual bool changing_stencils() const { return false; }

@@ -31,7 +31,7 @@ struct Model {
   std::vector<std::unique_ptr<EnergyTerm>> mass_corrections;  ///< of bodies with consistent mass (mass.h)
   const ColliderContact* contact = nullptr;                   ///< the one among the potentials, if any
 
-  SurfaceContact* surfaces = nullptr;                         ///< contact between surfaces, among the potentials
+  SurfaceContact* surfaces = nullptr;  ///< contact between surfaces, among the potentials
 
   int vertices() const { return static_cast<int>(masses.size()); }
 };

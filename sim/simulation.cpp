@@ -200,8 +200,8 @@ void Simulation::implicit_step(double h, StepReport& report) {
   }
 }
 
-/// With contact between surfaces a solve may only begin where nothing was jumped over on the way there: cuts the way to y.
-/// Returns the share of it that is left; `end` of the step [s].
+/// With contact between surfaces a solve may only begin where nothing was jumped over on the way there: cuts the way to
+/// y. Returns the share of it that is left; `end` of the step [s].
 double Simulation::start_of_solve(double end, Eigen::VectorXd& y, StepReport& report) {
   const Stopwatch watch(report.seconds.contact);
   SurfaceContact& surfaces = *model_.surfaces;
@@ -225,7 +225,8 @@ void Simulation::solve(const Eigen::VectorXd& target, double progress, const Eig
     phi_->drive_to(target, progress);
     minimizer_->minimize(y, guess, report);
     guess = nullptr;  // it was one for softer contact
-    const bool stiffened = report.converged ? surfaces->stiffen_near(y) : phi_->blocked() && surfaces->stiffen_blocking();
+    const bool stiffened =
+        report.converged ? surfaces->stiffen_near(y) : phi_->blocked() && surfaces->stiffen_blocking();
     if (!stiffened) break;
     ++report.stiffenings;
   }

@@ -15,11 +15,11 @@ using FourNumbers = std::array<double, 4>;
 /// The vector between the nearest points is r = sum w_i x_i. Where the nearest points lie inside a feature they give
 /// way, r = sum w_i(beta) x_i with as many parameters beta as they have freedom.
 struct ClosestPoints {
-  double distance = 0;                           ///< |r| [m]
-  Eigen::Vector3d r = Eigen::Vector3d::Zero();   ///< from the second feature to the first [m]
-  FourNumbers weights{};                         ///< w; their sum is zero
-  int parameters = 0;                            ///< of beta: 0 between vertices, 1 vertex to edge, 2 inside both
-  std::array<FourNumbers, 2> rates{};            ///< dw/dbeta, one for each parameter
+  double distance = 0;                          ///< |r| [m]
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< from the second feature to the first [m]
+  FourNumbers weights{};                        ///< w; their sum is zero
+  int parameters = 0;                           ///< of beta: 0 between vertices, 1 vertex to edge, 2 inside both
+  std::array<FourNumbers, 2> rates{};           ///< dw/dbeta, one for each parameter
 };
 
 /// The nearest points. Flat triangles and edges without length are allowed.

@@ -1,8 +1,8 @@
 #include "sim/contact/contact_candidates.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Geometry>
 
 #include "sim/parallel.h"
 
@@ -23,7 +23,8 @@ ContactCandidates::ContactCandidates(const ContactSurfaces& surfaces, double rea
     : surfaces_(surfaces), reach_(reach), trees_(surfaces.surfaces.size()), built_cost_(trees_.size(), 0) {
   for (const ContactSurface& surface : surfaces.surfaces) {
     Eigen::AlignedBox3d box;
-    for (int v = surface.first; v < surface.first + surface.count; ++v) box.extend(surfaces.rest[static_cast<size_t>(v)]);
+    for (int v = surface.first; v < surface.first + surface.count; ++v)
+      box.extend(surfaces.rest[static_cast<size_t>(v)]);
     if (!box.isEmpty()) extent_ = std::max(extent_, box.diagonal().norm());
   }
   for (const SurfacePair& pair : surfaces.pairs)
@@ -31,10 +32,10 @@ ContactCandidates::ContactCandidates(const ContactSurfaces& surfaces, double rea
       auto& tree = trees_[static_cast<size_t>(s)];
       const ContactSurface& surface = surfaces.surfaces[static_cast<size_t>(s)];
       if (tree) continue;
-      tree = std::make_unique<BoxTree>(std::span(surfaces.triangles)
-                                           .subspan(static_cast<size_t>(surface.first_triangle),
-                                                    static_cast<size_t>(surface.triangle_count)),
-                                       surfaces.rest);
+      tree = std::make_unique<BoxTree>(
+          std::span(surfaces.triangles)
+              .subspan(static_cast<size_t>(surface.first_triangle), static_cast<size_t>(surface.triangle_count)),
+          surfaces.rest);
     }
 }
 
@@ -92,9 +93,9 @@ void ContactCandidates::begin(const std::vector<Vec3>& x, const std::vector<Vec3
   }
   shift_.clear();
   for (const SurfacePair& pair : surfaces_.pairs)
-    shift_.push_back(kRoom * reach_ + kRoomOfMove * (mean_move_[static_cast<size_t>(pair.b)] -
-                                                     mean_move_[static_cast<size_t>(pair.a)])
-                                                        .norm());
+    shift_.push_back(kRoom * reach_ +
+                     kRoomOfMove *
+                         (mean_move_[static_cast<size_t>(pair.b)] - mean_move_[static_cast<size_t>(pair.a)]).norm());
   search();
 }
 
@@ -185,12 +186,14 @@ void ContactCandidates::add_features(const BoxTree::Pair& triangles, const Surfa
     if (surfaces_.stands_for[t] >> k & 1 && std::find(U.begin(), U.end(), T[k]) == U.end() &&
         meet(vertex_box_[static_cast<size_t>(T[k])], triangle_box_[u])) {
       Candidate c{T[k], triangles.second, reach, pair_number};
-      if (close_reach(PairKind::kPointTriangle, pair, c) && may_meet(PairKind::kPointTriangle, pair, pair_number, c)) points.push_back(c);
+      if (close_reach(PairKind::kPointTriangle, pair, c) && may_meet(PairKind::kPointTriangle, pair, pair_number, c))
+        points.push_back(c);
     }
     if (surfaces_.stands_for[u] >> k & 1 && std::find(T.begin(), T.end(), U[k]) == T.end() &&
         meet(triangle_box_[t], vertex_box_[static_cast<size_t>(U[k])])) {
       Candidate c{U[k], triangles.first, reach, pair_number};
-      if (close_reach(PairKind::kPointTriangle, pair, c) && may_meet(PairKind::kPointTriangle, pair, pair_number, c)) points.push_back(c);
+      if (close_reach(PairKind::kPointTriangle, pair, c) && may_meet(PairKind::kPointTriangle, pair, pair_number, c))
+        points.push_back(c);
     }
   }
   for (size_t k = 0; k < 3; ++k) {
@@ -206,7 +209,8 @@ void ContactCandidates::add_features(const BoxTree::Pair& triangles, const Surfa
       if (!meet(box, box_of(others))) continue;
       Candidate c{e, f, reach, pair_number};
       if (pair.a == pair.b && c.a > c.b) std::swap(c.a, c.b);
-      if (close_reach(PairKind::kEdgeEdge, pair, c) && may_meet(PairKind::kEdgeEdge, pair, pair_number, c)) edges.push_back(c);
+      if (close_reach(PairKind::kEdgeEdge, pair, c) && may_meet(PairKind::kEdgeEdge, pair, pair_number, c))
+        edges.push_back(c);
     }
   }
 }
@@ -239,10 +243,10 @@ void ContactCandidates::refit() {
       const ContactSurface& surface = surfaces_.surfaces[s];
       std::vector<Vec3> middles;
       for (const Box3f& box : vertex_box_) middles.push_back((0.5F * (box.lower + box.upper)).matrix().cast<double>());
-      trees_[s] = std::make_unique<BoxTree>(std::span(surfaces_.triangles)
-                                                .subspan(static_cast<size_t>(surface.first_triangle),
-                                                         static_cast<size_t>(surface.triangle_count)),
-                                            middles);
+      trees_[s] = std::make_unique<BoxTree>(
+          std::span(surfaces_.triangles)
+              .subspan(static_cast<size_t>(surface.first_triangle), static_cast<size_t>(surface.triangle_count)),
+          middles);
       trees_[s]->refit(vertex_box_);
       built_cost_[s] = trees_[s]->cost();
     }

@@ -18,11 +18,11 @@ struct Candidate {
   int pair = 0;     ///< of surfaces
 };
 
-/// Complete for a set of places: all vertices go from where they are along a move, together: x + s m, s in [0, 1]. Beside
-/// that every surface may be shifted as a whole, and every vertex may be off by its own radius. As long as positions are
-/// of this kind, no pair that comes within reach is missing; and the set is convex: a straight way between two places in
-/// it stays in it. `cover` looks for pairs anew where a move would leave it. What is far apart costs a box test; what
-/// moves along with its neighbours is no candidate for that, at any speed.
+/// Complete for a set of places: all vertices go from where they are along a move, together: x + s m, s in [0, 1].
+/// Beside that every surface may be shifted as a whole, and every vertex may be off by its own radius. As long as
+/// positions are of this kind, no pair that comes within reach is missing; and the set is convex: a straight way
+/// between two places in it stays in it. `cover` looks for pairs anew where a move would leave it. What is far apart
+/// costs a box test; what moves along with its neighbours is no candidate for that, at any speed.
 class ContactCandidates {
  public:
   /// `reach`: d_hat [m] > 0. `surfaces` must outlive this.

@@ -46,9 +46,9 @@ struct ContactSurface {
 
 /// Two surfaces (or one) that can touch.
 struct SurfacePair {
-  int a = 0, b = 0;         ///< a <= b
-  double friction = 0;      ///< the geometric mean of the two, if no rule says otherwise
-  double offset = 0;        ///< distance at which they touch [m]
+  int a = 0, b = 0;            ///< a <= b
+  double friction = 0;         ///< the geometric mean of the two, if no rule says otherwise
+  double offset = 0;           ///< distance at which they touch [m]
   bool close_at_rest = false;  ///< of one body, or tied: distances at rest count
 };
 

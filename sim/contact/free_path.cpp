@@ -23,9 +23,8 @@ double free_path(PairKind kind, const FourPoints& x, const FourPoints& p, double
     speed[i] = (p[i] - mean).norm();
     size = std::max(size, x[i].cwiseAbs().maxCoeff());
   }
-  const double fastest = kind == PairKind::kPointTriangle
-                             ? speed[0] + std::max({speed[1], speed[2], speed[3]})
-                             : std::max(speed[0], speed[1]) + std::max(speed[2], speed[3]);
+  const double fastest = kind == PairKind::kPointTriangle ? speed[0] + std::max({speed[1], speed[2], speed[3]})
+                                                          : std::max(speed[0], speed[1]) + std::max(speed[2], speed[3]);
   if (fastest == 0) return 1;
   double gap = pair_distance(kind, x) - offset;
   if (!(gap > kRounding * size)) return 0;

@@ -2,8 +2,8 @@
 // function theorem: with T_k = dr/dbeta_k, orthonormalized to tangents q with the rates w_q = dw/dbeta_q,
 //   grad d = w (x) n,
 //   hess d = (1/d) ww^T (x) (I - nn^T - sum qq^T) - sum (w w_q^T (x) q n^T + its transpose) - d sum w_q w_q^T (x) nn^T.
-// With psi' < 0 the first part is negative semi-definite, and orthogonal to all the rest: clamped away. The rest lives in
-// the span of w (x) q and {w, w_q} (x) n, at most 5 dimensions, where its eigenvalues are found and clamped.
+// With psi' < 0 the first part is negative semi-definite, and orthogonal to all the rest: clamped away. The rest lives
+// in the span of w (x) q and {w, w_q} (x) n, at most 5 dimensions, where its eigenvalues are found and clamped.
 #include "sim/contact/pair_energy.h"
 
 #include <Eigen/Eigenvalues>

@@ -11,9 +11,9 @@ struct PairPenalty {
   double stiffness = 0;  ///< k [N/m^2] > 0
   double reach = 0;      ///< d_hat [m] > 0
   double offset = 0;     ///< of both surfaces' half thickness [m] >= 0
-  /// Edge pairs only: |u|^2 |v|^2 of the edges at rest [m^4]. Below a thousandth of it, |u x v|^2 fades the penalty out:
-  /// the nearest points of parallel edges are not unique, and the energy would have a kink (Li et al. 2020, "Incremental
-  /// potential contact", section 4.3).
+  /// Edge pairs only: |u|^2 |v|^2 of the edges at rest [m^4]. Below a thousandth of it, |u x v|^2 fades the penalty
+  /// out: the nearest points of parallel edges are not unique, and the energy would have a kink (Li et al. 2020,
+  /// "Incremental potential contact", section 4.3).
   double cross_rest = 0;
 
   /// d_hat - (d - offset) [m]; the pair is active where that is positive.

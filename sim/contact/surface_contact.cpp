@@ -13,8 +13,6 @@
 namespace softreel::sim {
 namespace {
 
-// A pair that is as stiff as ten times what its vertices are made of gives a tenth of what these give.
-constexpr double kMaterialShare = 10;
 constexpr double kNearGap = 0.1;  // of d_hat: a solve that ends nearer is taken again with more stiffness
 constexpr int kHighestLevel = 10;
 constexpr int kChunk = 512;  // candidates that one task looks at
@@ -122,7 +120,8 @@ void SurfaceContact::begin_step(const StepContext& context) {
   for (size_t v = 0; v < path_.from.size(); ++v) colliders_move_ = colliders_move_ || path_.from[v] != path_.to[v];
   if (settings_.stiffness <= 0) {
     const double inertia = settings_.hardness / (context.h_nominal * context.h_nominal);
-    for (size_t v = 0; v < base_.size(); ++v) base_[v] = (inertia * mass_[v] + kMaterialShare * material_[v]) / settings_.distance;
+    for (size_t v = 0; v < base_.size(); ++v)
+      base_[v] = (inertia * mass_[v] + settings_.material * material_[v]) / settings_.distance;
   }
   x_start_ = context.x;
   active_progress_ = -1;
@@ -205,7 +204,8 @@ Vec3 SurfaceContact::collider_move(int vertex) const {
   if (surfaces_->state_vertex[v] >= 0) return Vec3::Zero();
   int before = 0;  // vertices of bodies in front of it
   for (int s = 0; s < surfaces_->surface_of[v]; ++s)
-    if (!surfaces_->surfaces[static_cast<size_t>(s)].collider) before += surfaces_->surfaces[static_cast<size_t>(s)].count;
+    if (!surfaces_->surfaces[static_cast<size_t>(s)].collider)
+      before += surfaces_->surfaces[static_cast<size_t>(s)].count;
   const auto k = v - static_cast<size_t>(before);
   return path_.to[k] - path_.from[k];
 }
@@ -340,7 +340,8 @@ std::string SurfaceContact::blocking() const {
 }
 
 SurfaceContactReport SurfaceContact::report(const Eigen::VectorXd& x) const {
-  SurfaceContactReport report{candidates_.searches(), static_cast<long>(candidates_.count()), 0, std::numeric_limits<double>::infinity(), 0};
+  SurfaceContactReport report{candidates_.searches(), static_cast<long>(candidates_.count()), 0,
+                              std::numeric_limits<double>::infinity(), 0};
   for (const ActivePair& p : active(x)) {
     ++report.active;
     report.smallest_gap = std::min(report.smallest_gap, p.gap());

@@ -16,7 +16,9 @@ namespace softreel::sim {
 struct SurfaceContactSettings {
   double distance = 2e-3;  ///< d_hat: the penalty begins here [m] > 0
   double stiffness = 0;    ///< k [N/m^2] of every pair; 0: from mass, step and material
-  double hardness = 100;   ///< c in k = (c m/h^2 + stiffness of the material)/d_hat, where k comes from those
+  double hardness = 100;   ///< c in k = (c m/h^2 + s K)/d_hat, where k comes from mass, step and material
+  double material =
+      10;  ///< s, of the stiffness K around a vertex: what is as stiff as ten gives a tenth of what ten give
 };
 
 /// A pair of features within reach, with all that its energy needs.
@@ -28,17 +30,17 @@ struct ActivePair {
   ClosestPoints closest;
   PairPenalty penalty;
 
-  double gap() const { return closest.distance - penalty.offset; }                           ///< [m]
+  double gap() const { return closest.distance - penalty.offset; }                     ///< [m]
   double force() const { return penalty.force(penalty.intrusion(closest.distance)); }  ///< [N]
 };
 
 /// What contact of surfaces was at some positions.
 struct SurfaceContactReport {
-  long searches = 0;         ///< of the broad phase, since the start
+  long searches = 0;  ///< of the broad phase, since the start
   long candidates = 0;
-  long active = 0;           ///< pairs within reach
-  double smallest_gap = 0;   ///< [m]; meaningful if active > 0
-  double deepest = 0;        ///< deepest intrusion into the contact distance, as a share of it
+  long active = 0;          ///< pairs within reach
+  double smallest_gap = 0;  ///< [m]; meaningful if active > 0
+  double deepest = 0;       ///< deepest intrusion into the contact distance, as a share of it
 };
 
 /// Touches that hold, and that slide.
@@ -69,7 +71,8 @@ class SurfaceContact final : public EnergyTerm {
   std::span<const int> stencils() const override { return stencils_; }
   void element_hessians(const Eigen::VectorXd& x, double scale, Definiteness definiteness, StencilRange range,
                         double* blocks) const override;
-  /// The share, in [0, 1], of the move dx on which nothing passes through: no gap falls below a tenth of what it is at x.
+  /// The share, in [0, 1], of the move dx on which nothing passes through: no gap falls below a tenth of what it is at
+  /// x.
   double max_step(const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const;
 
   const ContactSurfaces& surfaces() const { return *surfaces_; }
@@ -122,10 +125,10 @@ class SurfaceContact final : public EnergyTerm {
 
   std::unique_ptr<const ContactSurfaces> surfaces_;
   SurfaceContactSettings settings_;
-  std::vector<double> mass_, material_;   // per contact vertex [kg], [N/m]; infinite for a collider's
-  std::vector<double> base_;              // k at level 0, per vertex [N/m^2]
-  std::vector<std::uint8_t> level_;       // per vertex: k is 4^level times as large
-  double softened_at_ = -1;               // time of the step that did it last [s]
+  std::vector<double> mass_, material_;  // per contact vertex [kg], [N/m]; infinite for a collider's
+  std::vector<double> base_;             // k at level 0, per vertex [N/m^2]
+  std::vector<std::uint8_t> level_;      // per vertex: k is 4^level times as large
+  double softened_at_ = -1;              // time of the step that did it last [s]
   bool at_bound_ = false;
   double stiffening_energy_ = 0;
   ContactSurfaces::ColliderPath path_;
@@ -144,8 +147,8 @@ class SurfaceContact final : public EnergyTerm {
   mutable std::array<int, 4> blocking_{-1, -1, -1, -1};
 };
 
-/// Smoothed, lagged Coulomb friction between surfaces (friction_law.h): normal forces, tangent planes and nearest points
-/// are those at the start of the step. `contact` must outlive the term, and begin its steps first.
+/// Smoothed, lagged Coulomb friction between surfaces (friction_law.h): normal forces, tangent planes and nearest
+/// points are those at the start of the step. `contact` must outlive the term, and begin its steps first.
 std::unique_ptr<EnergyTerm> make_surface_friction(const SurfaceContact& contact, double slip_speed);
 
 }  // namespace softreel::sim

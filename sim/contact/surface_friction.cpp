@@ -38,9 +38,8 @@ class SurfaceFriction final : public EnergyTerm {
   }
 
   double value(const Eigen::VectorXd& v) const override {
-    return parallel_sum(count(), Work::kRow, [&](int i) {
-      return touches_[static_cast<size_t>(i)].limit * law_.value(slip(i, v).norm());
-    });
+    return parallel_sum(count(), Work::kRow,
+                        [&](int i) { return touches_[static_cast<size_t>(i)].limit * law_.value(slip(i, v).norm()); });
   }
 
   double power(const Eigen::VectorXd& v) const override {

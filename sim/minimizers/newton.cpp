@@ -101,9 +101,9 @@ Minimizer::Failure Newton::advance(int iteration, Eigen::VectorXd& y, StepReport
   return failure;
 }
 
-/// The held go the rest of their way d_h, the others take Newton's step with them: H_ff d_f = -g_f - H_fh d_h. What stands
-/// in the way is pushed, since contact is in H_fh; continuous collision detection cuts the step. There is no energy to
-/// look at: what drives puts in whatever it takes.
+/// The held go the rest of their way d_h, the others take Newton's step with them: H_ff d_f = -g_f - H_fh d_h. What
+/// stands in the way is pushed, since contact is in H_fh; continuous collision detection cuts the step. There is no
+/// energy to look at: what drives puts in whatever it takes.
 Minimizer::Failure Newton::drive(Eigen::VectorXd& y, StepReport& report) {
   ++report.newton_iterations;
   forcing_ = kFirstForcing;

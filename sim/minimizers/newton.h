@@ -56,7 +56,7 @@ class Newton final : public Minimizer {
   double last_norm_ = 0;     // of the gradient, one iteration ago
   std::unique_ptr<LinearSolver> linear_;
   LineSearch search_;
-  long analysed_ = -1;          // pattern that the linear solver has analysed
+  long analysed_ = -1;        // pattern that the linear solver has analysed
   double shift_ = 0;          // c, relative to the mean diagonal at rest; kept from step to step
   bool indefinite_ = false;   // why the last direction was not found
   double applied_shift_ = 0;  // what of it is in H_ [kg]

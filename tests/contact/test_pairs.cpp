@@ -95,7 +95,8 @@ TEST_CASE("the penalty of nearly parallel edges is smooth") {
   int faded = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const double tilt = 0.03 * number(random);
-    NamedPair pair{"", PairKind::kEdgeEdge,
+    NamedPair pair{"",
+                   PairKind::kEdgeEdge,
                    {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0.01 * number(random), 0),
                     Eigen::Vector3d(0.3 * number(random), 0.1, -tilt / 2), Eigen::Vector3d(0.8, 0.1, tilt / 2)}};
     const PairPenalty p = reaching(pair);

@@ -79,7 +79,8 @@ TEST_CASE("a stack of boxes with the heaviest on top stays up for five seconds a
   TouchingScene scene;
   const double density[] = {1000, 300, 3000};  // a ratio of ten
   for (int i = 0; i < 3; ++i)
-    scene.add_solid("box " + std::to_string(i + 1), moved(block_of_tets(Vec3(0.2, 0.2, 0.2), 2, 2, 2), Vec3(0, 0.1025 + 0.203 * i, 0)),
+    scene.add_solid("box " + std::to_string(i + 1),
+                    moved(block_of_tets(Vec3(0.2, 0.2, 0.2), 2, 2, 2), Vec3(0, 0.1025 + 0.203 * i, 0)),
                     {"stable-neo-hookean", 1e6, 0.3, density[i]}, 0.5);
   Collider ground;
   ground.friction = 0.5;
@@ -116,7 +117,8 @@ TEST_CASE("twisted cloth and twisted mat do not cross themselves") {
 TEST_CASE("a plate drives a soft ball through a ring of half its diameter") {
   TouchingScene scene;
   scene.gravity = Vec3::Zero();
-  scene.add_solid("ball", moved(ball_of_tets(0.2, 6), Vec3(0, 0.24, 0)), {"stable-neo-hookean", 5e3, 0.3, 500}, 0.05, true);
+  scene.add_solid("ball", moved(ball_of_tets(0.2, 6), Vec3(0, 0.24, 0)), {"stable-neo-hookean", 5e3, 0.3, 500}, 0.05,
+                  true);
   scene.add_mesh_collider("ring", tests::ring(0.16, 0.06), 0.05);  // the hole is 0.2 across
   Motion down({{0, {0, 0, 0}, {0, 0, 0}}, {2, {0, -0.9, 0}, {0, 0, 0}}}, {0, 0, 0});
   scene.add_mesh_collider("plate", moved(grid_sheet(0.1, 0.1, 2, 2), Vec3(0, 0.45, 0)), 0.05, down);
@@ -132,7 +134,8 @@ TEST_CASE("a ball at 10, 100 and 1000 m/s never crosses a sheet of tetrahedra or
     for (const double speed : {10.0, 100.0, 1000.0}) {
       INFO((cloth ? "cloth, " : "tetrahedra, "), speed, " m/s");
       TouchingScene scene;
-      const BodyRange ball = scene.add_solid("ball", moved(ball_of_tets(0.05, 2), Vec3(0, 0.08, 0)), {"stable-neo-hookean", 1e6, 0.3, 1000}, 0.2, true);
+      const BodyRange ball = scene.add_solid("ball", moved(ball_of_tets(0.05, 2), Vec3(0, 0.08, 0)),
+                                             {"stable-neo-hookean", 1e6, 0.3, 1000}, 0.2, true);
       scene.builder.set_velocity(ball, Vec3(0, -speed, 0), Vec3::Zero());
       Pin rim;
       const auto hold = [&](const std::vector<Vec3>& vertices, int first) {
@@ -200,11 +203,13 @@ TEST_CASE("a block on a rough slope of a mesh sticks at the cone and slides belo
 
 TEST_CASE("what is soft and light stands what is stiff and heavy without crossing, and energy does not rise") {
   TouchingScene scene;
-  scene.add_solid("soft", moved(block_of_tets(Vec3(0.3, 0.2, 0.3), 3, 2, 3), Vec3(0, 0.103, 0)), {"stable-neo-hookean", 1e4, 0.3, 100}, 0.3);
+  scene.add_solid("soft", moved(block_of_tets(Vec3(0.3, 0.2, 0.3), 3, 2, 3), Vec3(0, 0.103, 0)),
+                  {"stable-neo-hookean", 1e4, 0.3, 100}, 0.3);
   // A thousand times its mass would flatten it under its weight: it flies by without gravity.
   scene.gravity = Vec3::Zero();
-  const BodyRange heavy = scene.add_solid("heavy", moved(block_of_tets(Vec3(0.2, 0.2, 0.2), 2, 2, 2), Vec3(0, 0.4, 0), Vec3(10, 20, 30)),
-                                          {"stable-neo-hookean", 1e8, 0.3, 225000}, 0.3);
+  const BodyRange heavy =
+      scene.add_solid("heavy", moved(block_of_tets(Vec3(0.2, 0.2, 0.2), 2, 2, 2), Vec3(0, 0.4, 0), Vec3(10, 20, 30)),
+                      {"stable-neo-hookean", 1e8, 0.3, 225000}, 0.3);
   scene.builder.set_velocity(heavy, Vec3(0, -0.3, 0), Vec3::Zero());
   Collider ground;
   scene.colliders.push_back(ground);
@@ -220,7 +225,8 @@ TEST_CASE("a pinned point pushed through a pile of cloths drags them along") {
   TouchingScene scene;
   MembraneMaterial material = kCotton;
   for (int layer = 0; layer < 3; ++layer)
-    scene.add_cloth("cloth " + std::to_string(layer + 1), moved(grid_sheet(0.4, 0.4, 8, 8), Vec3(0, 0.004 + 0.006 * layer, 0), Vec3(0, 10 * layer, 0)),
+    scene.add_cloth("cloth " + std::to_string(layer + 1),
+                    moved(grid_sheet(0.4, 0.4, 8, 8), Vec3(0, 0.004 + 0.006 * layer, 0), Vec3(0, 10 * layer, 0)),
                     material, 0.3, true);
   const TetMesh spike = moved(block_of_tets(Vec3(0.03, 0.1, 0.03), 1, 2, 1), Vec3(0, 0.1, 0));
   const BodyRange body = scene.add_solid("spike", spike, {"stable-neo-hookean", 1e6, 0.3, 1000}, 0.3);
@@ -237,7 +243,8 @@ TEST_CASE("a pinned point pushed through a pile of cloths drags them along") {
 TEST_CASE("two plates that crush a body stop the run with a sentence that names them") {
   TouchingScene scene;
   scene.gravity = Vec3::Zero();
-  scene.add_solid("cushion", moved(block_of_tets(Vec3(0.2, 0.1, 0.2), 2, 1, 2), Vec3(0, 0.055, 0)), {"stable-neo-hookean", 1e5, 0.3, 1000}, 0);
+  scene.add_solid("cushion", moved(block_of_tets(Vec3(0.2, 0.1, 0.2), 2, 1, 2), Vec3(0, 0.055, 0)),
+                  {"stable-neo-hookean", 1e5, 0.3, 1000}, 0);
   scene.add_mesh_collider("anvil", grid_sheet(1, 1, 2, 2), 0);
   Motion down({{0, {0, 0, 0}, {0, 0, 0}}, {0.25, {0, -0.25, 0}, {0, 0, 0}}}, {0, 0, 0});
   scene.add_mesh_collider("hammer", moved(grid_sheet(0.9, 0.9, 2, 2), Vec3(0, 0.11, 0)), 0, down);
@@ -258,10 +265,12 @@ TEST_CASE("methods without the guarantee refuse a step that would pass through")
     TouchingScene scene;
     scene.gravity = Vec3::Zero();
     scene.settings.integrator = integrator;
-    const bool implicit = std::string(integrator).find("euler") == std::string::npos && std::string(integrator) != "rk4";
+    const bool implicit =
+        std::string(integrator).find("euler") == std::string::npos && std::string(integrator) != "rk4";
     if (!implicit) scene.contact.hardness = kExplicitHardness;
-    const BodyRange bullet = scene.add_solid("bullet", moved(block_of_tets(Vec3(0.02, 0.02, 0.02), 1, 1, 1), Vec3(0, 0.1, 0)),
-                                             {"stable-neo-hookean", 1e5, 0.3, 1000}, 0);
+    const BodyRange bullet =
+        scene.add_solid("bullet", moved(block_of_tets(Vec3(0.02, 0.02, 0.02), 1, 1, 1), Vec3(0, 0.1, 0)),
+                        {"stable-neo-hookean", 1e5, 0.3, 1000}, 0);
     scene.builder.set_velocity(bullet, Vec3(0, -40, 0), Vec3::Zero());
     scene.add_mesh_collider("wall", grid_sheet(1, 1, 2, 2), 0);
     Simulation s = scene.start();
@@ -275,5 +284,31 @@ TEST_CASE("methods without the guarantee refuse a step that would pass through")
         break;
       }
     }
+  }
+}
+
+TEST_CASE("explicit methods bounce bodies off each other without gaining energy") {
+  for (const char* integrator : {"symplectic-euler", "verlet", "rk4"}) {
+    INFO(integrator);
+    TouchingScene scene;
+    scene.gravity = Vec3::Zero();
+    scene.settings.integrator = integrator;
+    scene.contact.hardness = kExplicitHardness;
+    scene.contact.material = 0;
+    for (const double side : {-1.0, 1.0}) {
+      const BodyRange body =
+          scene.add_solid(side < 0 ? "left" : "right",
+                          moved(block_of_tets(Vec3(0.1, 0.1, 0.1), 2, 2, 2), Vec3(0.06 * side, 0.01 * side, 0)),
+                          {"stable-neo-hookean", 2e4, 0.3, 1000}, 0);
+      scene.builder.set_velocity(body, Vec3(-0.3 * side, 0, 0), Vec3::Zero());
+    }
+    Simulation s = scene.start();
+    const double start = tests::mechanical_energy(s);
+    run_without_crossing(s, 1.0 / 2400, 480);
+    CHECK(tests::mechanical_energy(s) < 1.01 * start);
+    double right = 0;
+    const BodyRange& body = s.model().bodies[1];
+    for (int i = body.first; i < body.first + body.count; ++i) right += s.state().v(3 * i) / body.count;
+    CHECK(right > 0.05);  // it turned back
   }
 }

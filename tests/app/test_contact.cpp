@@ -1,0 +1,92 @@
+// Contact between surfaces as a user meets it: keys, refusals, figures.
+#include "tests/app/clip.h"
+
+using namespace softreel;
+
+namespace {
+
+/// Two blocks, the upper one `gap` above the lower one, and what else is said.
+std::string two_blocks(double gap, const std::string& more = "") {
+  return "[time]\nduration = 0.4\nfps = 10\nsubsteps = 3\n"
+         "[[soft]]\nname = \"lower\"\nblock = { size = [0.4, 0.2, 0.4], cells = [2, 1, 2] }\ntranslate = [0, 0.11, 0]\n"
+         "[[soft]]\nname = \"upper\"\nblock = { size = [0.2, 0.2, 0.2], cells = [1, 1, 1] }\ntranslate = [0.03, " +
+         std::to_string(0.31 + gap) +
+         ", 0.02]\n"
+         "[[collider]]\nshape = \"plane\"\n[render]\nsize = [48, 32]\nsamples = 1\n" +
+         more;
+}
+
+test::RunResult run(const test::TempFolder& folder, const std::string& scene, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments = {"simulate", folder.write("scene.toml", scene).string(), "-o",
+                                        (folder / "out").string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return test::run(arguments);
+}
+
+nlohmann::json stats(const std::string& scene) {
+  test::TempFolder folder;
+  return test::stats_of({"simulate", folder.write("scene.toml", scene).string(), "-o", (folder / "out").string()},
+                        folder);
+}
+
+}  // namespace
+
+TEST_CASE("bodies that fall on each other do not cross, and the stats tell what contact did") {
+  const auto j = stats(two_blocks(0.05));
+  REQUIRE(j.at("crossings").size() == 4);
+  for (const auto& count : j.at("crossings")) CHECK(count == 0);
+  CHECK(j.at("contact").at("active").back() > 0);
+  CHECK(j.at("contact").at("smallest_gap").back() > 0);
+  CHECK(j.at("contact").at("sticks").back().get<long>() + j.at("contact").at("slips").back().get<long>() > 0);
+  // A single body, and bodies that are told to pass through each other, have no such stage.
+  const auto apart = stats(two_blocks(0.05, "[[contact.pair]]\nbetween = [\"lower\", \"upper\"]\ntouch = false\n"));
+  CHECK_FALSE(apart.contains("crossings"));
+  CHECK_FALSE(apart.contains("contact"));
+}
+
+TEST_CASE("bodies that overlap in the first frame are refused with their names, or moved apart if asked") {
+  test::TempFolder folder;
+  const test::RunResult refused = run(folder, two_blocks(-0.07));
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("'lower' and 'upper'") != std::string::npos);
+  CHECK(refused.err.find("resolve_overlap") != std::string::npos);
+  const auto j = stats(two_blocks(-0.07, "[contact]\nresolve_overlap = true\n"));
+  for (const auto& count : j.at("crossings")) CHECK(count == 0);
+  // What whole bodies cannot be moved out of is still refused.
+  const test::RunResult pinned = run(folder, two_blocks(-0.07, "[contact]\nresolve_overlap = true\n"),
+                                     {"--set", "soft.*.pins=[{ box = [[-9, -9, -9], [9, 9, 9]] }]"});
+  CHECK(pinned.code == 2);
+}
+
+TEST_CASE("a mesh collider carries what falls on it, and is said to be missing where it is") {
+  test::TempFolder folder;
+  folder.write("table.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 1 3 2\nf 1 4 3\n");
+  const std::string text =
+      "[time]\nduration = 0.5\nfps = 10\nsubsteps = 3\n"
+      "[[soft]]\nname = \"box\"\nblock = { size = [0.2, 0.2, 0.2], cells = [1, 1, 1] }\ntranslate = [0, 0.13, 0]\n"
+      "[[collider]]\nname = \"table\"\nshape = \"mesh\"\nmesh = \"table.obj\"\nmotion = [{ t = 0 }, { t = 1, translate "
+      "= "
+      "[0, 0.5, 0] }]\n[render]\nsize = [48, 32]\nsamples = 1\n";
+  const std::string scene = folder.write("scene.toml", text).string();
+  const auto j = test::stats_of({"render", scene, "-o", (folder / "out").string()}, folder);
+  for (const auto& count : j.at("crossings")) CHECK(count == 0);
+  CHECK(j.at("left_out").contains("contact with colliders"));
+  const test::RunResult none = run(folder, "[[soft]]\nblock = { }\n[[collider]]\nshape = \"mesh\"\n");
+  CHECK(none.code == 2);
+  CHECK(none.err.find("add mesh = ") != std::string::npos);
+}
+
+TEST_CASE("pairs of contact name what has a surface") {
+  test::TempFolder folder;
+  const test::RunResult unknown = run(folder, two_blocks(0.1, "[[contact.pair]]\nbetween = [\"lower\", \"uper\"]\n"));
+  CHECK(unknown.code == 2);
+  CHECK(unknown.err.find("did you mean \"upper\"?") != std::string::npos);
+  const test::RunResult simple =
+      run(folder, two_blocks(0.1, "[[contact.pair]]\nbetween = [\"lower\", \"collider-1\"]\n"));
+  CHECK(simple.code == 2);
+  CHECK(simple.err.find("simple shape") != std::string::npos);
+  const test::RunResult mute =
+      run(folder, two_blocks(0.1, "[[contact.pair]]\nbetween = [\"lower\", \"upper\"]\ntouch = false\nfriction = 1\n"));
+  CHECK(mute.code == 2);
+  CHECK(mute.err.find("has no effect with touch = false") != std::string::npos);
+}
