@@ -31,10 +31,11 @@ float pixel_error(const SeenRow& r, const SeenRow& t, std::size_t x) {
   const float color = spread(std::pow(distance, kColorExponent));
   const float features = std::max(std::abs(r.edge[x] - t.edge[x]), std::abs(r.point[x] - t.point[x]));
   const float feature = std::sqrt(features / std::numbers::sqrt2_v<float>);  // section 4.2: exponent 0.5
-  return std::pow(color, 1 - feature);                                          // section 4.3
+  return std::pow(color, 1 - feature);                                       // section 4.3
 }
 
-void fill_rows(const Image& reference, const Image& test, const FlipFilters& filters, int first, int end, FlipMap& map) {
+void fill_rows(const Image& reference, const Image& test, const FlipFilters& filters, int first, int end,
+               FlipMap& map) {
   const auto width = static_cast<std::size_t>(map.width);
   SeenRows reference_rows(reference, filters, first), test_rows(test, filters, first);
   SeenRow r(map.width), t(map.width);

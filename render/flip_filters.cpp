@@ -9,13 +9,14 @@ namespace softreel::render {
 namespace {
 
 constexpr double kFeatureWidth = 0.082;  // [degrees] section 4.2: what the eye detects best
-constexpr double kNothing = 1e-9;        // weights whose sum is below this part of the whole are left out: float cannot tell
+constexpr double kNothing = 1e-9;  // weights whose sum is below this part of the whole are left out: float cannot tell
 
 /// One term a sqrt(pi / b) exp(-pi^2 r^2 / b) of the contrast sensitivity in space; r in degrees.
 struct Term {
   double a, b;
 };
-constexpr Term kAchromatic{1, 0.0047}, kRedGreen{1, 0.0053}, kBlueYellowWide{34.1, 0.04}, kBlueYellowNarrow{13.5, 0.025};
+constexpr Term kAchromatic{1, 0.0047}, kRedGreen{1, 0.0053}, kBlueYellowWide{34.1, 0.04},
+    kBlueYellowNarrow{13.5, 0.025};
 
 double sigma_of(const Term& term) { return std::sqrt(term.b / 2) / std::numbers::pi; }  // [degrees]
 
@@ -78,8 +79,7 @@ FlipFilters flip_filters(double pixels_per_degree) {
     const double side = whole(sensitivity(t));
     return t.a * std::sqrt(std::numbers::pi / t.b) * side * side;
   };
-  f.wide_part =
-      static_cast<float>(weight(kBlueYellowWide) / (weight(kBlueYellowWide) + weight(kBlueYellowNarrow)));
+  f.wide_part = static_cast<float>(weight(kBlueYellowWide) / (weight(kBlueYellowWide) + weight(kBlueYellowNarrow)));
 
   const double sigma = 0.5 * kFeatureWidth * pixels_per_degree;
   const int feature_radius = static_cast<int>(std::ceil(3 * sigma));

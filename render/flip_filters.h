@@ -1,7 +1,7 @@
 #pragma once
 // The filters of FLIP, as one-dimensional kernels whose products are the two-dimensional ones of the paper.
-// Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild: FLIP, A Difference Evaluator for Alternating Images,
-// Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020; sections 4.1 (contrast sensitivity) and 4.2 (features).
+// Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild: FLIP, A Difference Evaluator for Alternating
+// Images, Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020; sections 4.1 (contrast sensitivity) and 4.2 (features).
 #include <vector>
 
 namespace softreel::render {

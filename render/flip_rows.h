@@ -1,6 +1,6 @@
 #pragma once
-// What FLIP looks at in one picture, row by row: colours as they are seen from afar, edges and points. Only as many rows
-// are kept as the filters reach.
+// What FLIP looks at in one picture, row by row: colours as they are seen from afar, edges and points. Only as many
+// rows are kept as the filters reach.
 #include <array>
 #include <vector>
 
