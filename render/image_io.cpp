@@ -6,10 +6,12 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <vector>
 
 #include "render/error.h"
+#include "render/png_decode.h"
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -43,6 +45,11 @@ Image load_image(std::span<const std::byte> bytes, const std::string& name) {
     refuse(name, fmt::format("{} (PNG, JPEG, TGA, BMP, PSD, GIF, PNM and HDR can be read)", stbi_failure_reason()));
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
     refuse(name, fmt::format("{} x {} pixels; a side may have 1 to {}", width, height, kMaxImageSide));
+  if (has_png_signature(bytes)) {
+    // stb does not look at the checksums, and would make a picture of what is left.
+    if (const std::string damage = png_damage(bytes); !damage.empty()) refuse(name, damage);
+    if (std::optional<Image> image = decode_plain_png(bytes)) return std::move(*image);
+  }
 
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);

@@ -1,5 +1,5 @@
-// FLIP against closed forms, and against a second implementation that follows the paper literally: dense two-dimensional
-// filters in double precision, with the constants that the authors publish with their own code.
+// FLIP against closed forms, and against a second implementation that follows the paper literally: dense
+// two-dimensional filters in double precision, with the constants that the authors publish with their own code.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,8 +22,7 @@ constexpr double kPi = std::numbers::pi;
 Image uniform(int r, int g, int b, int width = 40, int height = 30) {
   Image image = Image::blank(width, height);
   for (std::size_t i = 0; i < image.pixel_count(); ++i)
-    for (std::size_t c = 0; c < 4; ++c)
-      image.rgba[4 * i + c] = static_cast<std::uint8_t>(std::array{r, g, b, 255}[c]);
+    for (std::size_t c = 0; c < 4; ++c) image.rgba[4 * i + c] = static_cast<std::uint8_t>(std::array{r, g, b, 255}[c]);
   return image;
 }
 
@@ -168,8 +167,8 @@ Plane literal_flip(const Image& reference, const Image& test, double ppd) {
   for (std::size_t i = 0; i < r.lab.size(); ++i) {
     const double error = std::pow(distance(r.lab[i], t.lab[i]), 0.7), knee = 0.4 * largest;
     const double color = error < knee ? 0.95 / knee * error : 0.95 + (error - knee) / (largest - knee) * 0.05;
-    const double feature = std::sqrt(
-        std::max(std::abs(r.edge[i] - t.edge[i]), std::abs(r.point[i] - t.point[i])) / std::numbers::sqrt2);
+    const double feature =
+        std::sqrt(std::max(std::abs(r.edge[i] - t.edge[i]), std::abs(r.point[i] - t.point[i])) / std::numbers::sqrt2);
     map.push_back(std::pow(color, 1 - feature));
   }
   return map;
