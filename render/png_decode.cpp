@@ -66,8 +66,8 @@ std::uint8_t paeth(int a, int b, int c) {
   return static_cast<std::uint8_t>(pa <= pb && pa <= pc ? a : pb <= pc ? b : c);
 }
 
-/// ISO/IEC 15948, 9.2, in place; `above` of the first row is zeros. kChannels fixed: the compiler keeps the last pixel in
-/// registers. False for a filter that does not exist.
+/// ISO/IEC 15948, 9.2, in place; `above` of the first row is zeros. kChannels fixed: the compiler keeps the last pixel
+/// in registers. False for a filter that does not exist.
 template <int kChannels>
 bool undo_filter(int filter, std::uint8_t* row, const std::uint8_t* above, int size) {
   switch (filter) {
