@@ -48,8 +48,8 @@ std::string describe(const FrameResult& f) {
                             : "different";
   if (d.differing_pixels > 0)
     text += fmt::format(": {} of {} pixels ({}), at most {} level{} (at {}, {}), mean {:.3g}", d.differing_pixels,
-                        d.pixels, percent(d.differing_fraction()), d.max_levels, d.max_levels == 1 ? "" : "s", d.worst_x,
-                        d.worst_y, d.mean_levels);
+                        d.pixels, percent(d.differing_fraction()), d.max_levels, d.max_levels == 1 ? "" : "s",
+                        d.worst_x, d.worst_y, d.mean_levels);
   if (f.flip) text += fmt::format(", FLIP {:.4f}", f.flip->mean);
   if (!f.good) text += fmt::format("; decided by: {}", f.judgement.limit);
   if (f.masked_pixels > 0) text += fmt::format("; {} pixels masked", f.masked_pixels);
@@ -68,7 +68,8 @@ ClipResult compare_clip(const std::vector<FramePair>& pairs, const CompareRules&
   const auto work = [&](int i) {
     const FramePair& pair = pairs[static_cast<std::size_t>(i)];
     const FrameRule rule = rules.rule_for(pair.name, pair.number);
-    return compare_frame(pair, rule, ids_of(rules, rule, pair.name), rules.pixels_per_degree(), count == 1 ? threads : 1);
+    return compare_frame(pair, rule, ids_of(rules, rule, pair.name), rules.pixels_per_degree(),
+                         count == 1 ? threads : 1);
   };
   ordered_work(count, threads, work, [&](int i, FrameWork&& done) {
     stop_if_interrupted();
@@ -89,8 +90,7 @@ ClipResult compare_clip(const std::vector<FramePair>& pairs, const CompareRules&
   });
   progress.reset();
   clip.flicker_too_much =
-      clip.most_flicker >= 0 &&
-      clip.frames[static_cast<std::size_t>(clip.most_flicker)].flicker > clip.flicker_limit;
+      clip.most_flicker >= 0 && clip.frames[static_cast<std::size_t>(clip.most_flicker)].flicker > clip.flicker_limit;
   if (clip.bad > 0 && count > 1) {
     clip.misplaced = misplaced_frames(clip.frames);
     tell_shift(pairs, rules, threads, clip);

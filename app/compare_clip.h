@@ -9,7 +9,7 @@ namespace softreel::app {
 
 /// The actual clip is the reference, some frames later (or earlier).
 struct TimeShift {
-  int frames = 0;        ///< > 0: late
+  int frames = 0;         ///< > 0: late
   int good = 0, all = 0;  ///< of the frames that overlap, those that are good at that shift
 };
 
@@ -20,12 +20,12 @@ struct Misplaced {
 
 struct ClipResult {
   std::vector<FrameResult> frames;
-  int bad = 0;                ///< frames that differ, are missing or have no reference
-  int worst = -1;             ///< indices into frames; -1: none
+  int bad = 0;     ///< frames that differ, are missing or have no reference
+  int worst = -1;  ///< indices into frames; -1: none
   int first_bad = -1;
-  int most_flicker = -1;      ///< -1: nowhere
+  int most_flicker = -1;  ///< -1: nowhere
   bool flicker_too_much = false;
-  double flicker_limit = 0;    ///< infinite: none
+  double flicker_limit = 0;      ///< infinite: none
   std::vector<TimeShift> shift;  ///< none or one
   std::vector<Misplaced> misplaced;
   bool good() const { return bad == 0 && !flicker_too_much; }
@@ -36,8 +36,8 @@ struct ClipResult {
 ClipResult compare_clip(const std::vector<FramePair>& pairs, const CompareRules& rules, int threads, bool each,
                         bool quiet);
 
-/// "frame_0007.png: driver: 12 of 921600 pixels (0.0013 %), at most 2 levels (at 10, 20)", and so on: what there is to say
-/// of a frame.
+/// "frame_0007.png: driver: 12 of 921600 pixels (0.0013 %), at most 2 levels (at 10, 20)", and so on: what there is to
+/// say of a frame.
 std::string describe(const FrameResult& frame);
 
 }  // namespace softreel::app

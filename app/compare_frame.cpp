@@ -68,8 +68,8 @@ void cover_masks(const Loaded& reference, Loaded& actual, const FrameRule& rule,
   const render::IdPicture picture = render::load_ids(ids);
   if (picture.width != reference.image.width || picture.height != reference.image.height)
     throw assets::UserError(assets::ErrorKind::kInput, ids.string(),
-                            fmt::format("the ids are {} x {} pixels, the picture {} x {}", picture.width, picture.height,
-                                        reference.image.width, reference.image.height));
+                            fmt::format("the ids are {} x {} pixels, the picture {} x {}", picture.width,
+                                        picture.height, reference.image.width, reference.image.height));
   result.masked_pixels += render::cover(reference.image, actual.image, picture.ids, rule.ids);
 }
 
@@ -165,8 +165,7 @@ double flicker_between(const std::vector<std::int16_t>& a, const std::vector<std
   if (!a.empty() && !b.empty() && a.size() != b.size()) return 0;
   const std::vector<std::int16_t>& some = a.empty() ? b : a;
   std::int64_t sum = 0;
-  for (std::size_t i = 0; i < some.size(); ++i)
-    sum += std::abs((a.empty() ? 0 : a[i]) - (b.empty() ? 0 : b[i]));
+  for (std::size_t i = 0; i < some.size(); ++i) sum += std::abs((a.empty() ? 0 : a[i]) - (b.empty() ? 0 : b[i]));
   return static_cast<double>(sum) / (64.0 * static_cast<double>(some.size()));
 }
 

@@ -48,8 +48,8 @@ struct FrameWork {
   std::vector<std::int16_t> change;  ///< actual - reference, luminance in 1/64 levels; empty: no difference, or no pair
 };
 
-/// Loads and judges. `ids`: picture of body ids, empty if there is none. `threads`: for this one frame. Throws RenderError
-/// (kInput) for pictures that are none.
+/// Loads and judges. `ids`: picture of body ids, empty if there is none. `threads`: for this one frame. Throws
+/// RenderError (kInput) for pictures that are none.
 FrameWork compare_frame(const FramePair& pair, const FrameRule& rule, const std::filesystem::path& ids,
                         double pixels_per_degree, int threads);
 

@@ -27,8 +27,9 @@ std::string compare_junit(const Comparison& c) {
   const std::size_t tests = clip.frames.size() + (clip.flicker_too_much ? 1 : 0);
   if (clip.flicker_too_much) {
     ++failures;
-    cases += fmt::format("    <testcase classname=\"{}\" name=\"flicker\"><failure message=\"more than {:.3g} levels\"/></testcase>\n",
-                         escaped(c.actual), clip.flicker_limit);
+    cases += fmt::format(
+        "    <testcase classname=\"{}\" name=\"flicker\"><failure message=\"more than {:.3g} levels\"/></testcase>\n",
+        escaped(c.actual), clip.flicker_limit);
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{0}\" failures=\"{1}\">\n"

@@ -28,8 +28,8 @@ std::string compare_junit(const Comparison& comparison);
 /// Throws UserError (kOutput), RenderError (kInput).
 void write_compare_page(const std::string& file, const Comparison& comparison, int pictures);
 
-/// "reference: FILE", "versions differ: ..." - what the texts inside of two PNGs say that is not the same; empty for equal
-/// texts. Key, reference, actual.
+/// "reference: FILE", "versions differ: ..." - what the texts inside of two PNGs say that is not the same; empty for
+/// equal texts. Key, reference, actual.
 struct TextDifference {
   std::string key, reference, actual;
   bool same() const { return reference == actual; }

@@ -41,7 +41,10 @@ std::string picture_uri(const fs::path& file) {
   if (file.empty()) return {};
   const std::vector<std::byte> bytes = render::read_picture_file(file);
   const std::string extension = file.extension().string();
-  const char* type = extension == ".png" ? "png" : extension == ".jpg" || extension == ".jpeg" ? "jpeg" : extension == ".bmp" ? "bmp" : nullptr;
+  const char* type = extension == ".png"                           ? "png"
+                     : extension == ".jpg" || extension == ".jpeg" ? "jpeg"
+                     : extension == ".bmp"                         ? "bmp"
+                                                                   : nullptr;
   if (type == nullptr) return png_uri(render::load_image(bytes, file.string()));
   return data_uri(type, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -72,7 +75,8 @@ Json frame_pictures(const Comparison& c, std::size_t i) {
 std::vector<std::size_t> worst_first(const std::vector<FrameResult>& frames) {
   std::vector<std::size_t> order(frames.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return is_worse(frames[a], frames[b]); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return is_worse(frames[a], frames[b]); });
   return order;
 }
 
@@ -81,14 +85,16 @@ std::vector<std::size_t> worst_first(const std::vector<FrameResult>& frames) {
 void write_compare_page(const std::string& file, const Comparison& c, int pictures) {
   assets::AtomicFile out(file);
   const std::string title = fmt::format("{} against {}", c.actual, c.reference);
-  out.write(fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
-      "<meta name=\"viewport\" content=\"width=device-width\"><link rel=\"icon\" href=\"data:,\"><style>{1}</style></head>"
-      "<body class=\"{2}\">\n<h1>{3}: {0}</h1>\n<pre id=\"lines\">{4}</pre>\n",
-      escaped(title), kComparePageStyle, c.clip.good() ? "good" : "bad", c.clip.good() ? "The same" : "Different",
-      escaped(closing_lines(c))));
+  out.write(
+      fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
+                  "<meta name=\"viewport\" content=\"width=device-width\"><link rel=\"icon\" "
+                  "href=\"data:,\"><style>{1}</style></head>"
+                  "<body class=\"{2}\">\n<h1>{3}: {0}</h1>\n<pre id=\"lines\">{4}</pre>\n",
+                  escaped(title), kComparePageStyle, c.clip.good() ? "good" : "bad",
+                  c.clip.good() ? "The same" : "Different", escaped(closing_lines(c))));
   out.write(kComparePageBody);
-  out.write(fmt::format("<h2>How it was made</h2>\n<pre>{}\nsoftreel {}</pre>\n", escaped(c.command), escaped(version())));
+  out.write(
+      fmt::format("<h2>How it was made</h2>\n<pre>{}\nsoftreel {}</pre>\n", escaped(c.command), escaped(version())));
 
   Json frames = Json::array();
   for (const FrameResult& f : c.clip.frames) frames.push_back(frame_figures(f));

@@ -37,7 +37,8 @@ void check_keys(const Node& table, const std::vector<std::string>& allowed) {
 }
 
 std::string text_of(const Node& node) {
-  if (node.kind != Node::Kind::kString) refuse(node.where, fmt::format("{}: found {}, expected a string", node.key, node.found()));
+  if (node.kind != Node::Kind::kString)
+    refuse(node.where, fmt::format("{}: found {}, expected a string", node.key, node.found()));
   return node.text;
 }
 
@@ -60,7 +61,8 @@ void read_masks(const Node& list, FrameRule& rule) {
   for (const Node& mask : list.children) {
     if (!mask.is_table()) refuse(mask.where, fmt::format("mask: found {}, expected a table", mask.found()));
     check_keys(mask, {"rectangle", "body"});
-    if (mask.children.size() != 1) refuse(mask.where, "mask: expected either rectangle = [x, y, width, height] or body = ID");
+    if (mask.children.size() != 1)
+      refuse(mask.where, "mask: expected either rectangle = [x, y, width, height] or body = ID");
     const Node& what = mask.children.front();
     if (what.key == "body") {
       rule.ids.push_back(whole(what, 0));
@@ -82,8 +84,9 @@ render::PixelRectangle parse_rectangle(const std::string& text) {
     const bool fits = error == std::errc() && values[i] >= (i < 2 ? 0 : 1) && values[i] <= 65535 &&
                       (i < 3 ? next != end && *next == ',' : next == end);
     if (!fits)
-      throw UserError(ErrorKind::kUsage,
-                      fmt::format("--mask: found \"{}\", expected x,y,width,height in pixels from the left top corner", text));
+      throw UserError(
+          ErrorKind::kUsage,
+          fmt::format("--mask: found \"{}\", expected x,y,width,height in pixels from the left top corner", text));
     at = next + 1;
   }
   return {values[0], values[1], values[2], values[3]};
@@ -98,10 +101,11 @@ CompareRules::CompareRules(const CompareArguments& a) {
   all_.ids.insert(all_.ids.end(), a.mask_ids.begin(), a.mask_ids.end());
   if (!a.ids.empty()) ids_ = a.ids;
   if (a.flip_distance > 0) pixels_per_degree_ = a.flip_distance;
-  const bool by_id = !all_.ids.empty() ||
-                     std::any_of(exceptions_.begin(), exceptions_.end(), [](const Exception& e) { return !e.rule.ids.empty(); });
+  const bool by_id = !all_.ids.empty() || std::any_of(exceptions_.begin(), exceptions_.end(),
+                                                      [](const Exception& e) { return !e.rule.ids.empty(); });
   if (by_id && ids_.empty())
-    throw UserError(ErrorKind::kUsage, "a mask by body id needs the pictures of the ids: --ids FOLDER, or ids = \"FOLDER\" in the rules");
+    throw UserError(ErrorKind::kUsage,
+                    "a mask by body id needs the pictures of the ids: --ids FOLDER, or ids = \"FOLDER\" in the rules");
 }
 
 void CompareRules::read_file(const std::string& file) {
@@ -114,7 +118,8 @@ void CompareRules::read_file(const std::string& file) {
   if (const Node* n = root.find("mask")) read_masks(*n, all_);
   const Node* frames = root.find("frames");
   if (!frames) return;
-  if (!frames->is_array()) refuse(frames->where, fmt::format("frames: found {}, expected [[frames]] tables", frames->found()));
+  if (!frames->is_array())
+    refuse(frames->where, fmt::format("frames: found {}, expected [[frames]] tables", frames->found()));
   for (const Node& table : frames->children) {
     if (!table.is_table()) refuse(table.where, fmt::format("frames: found {}, expected a table", table.found()));
     check_keys(table, {"frames", "tolerance", "mask", "skip", "why"});
@@ -130,7 +135,8 @@ void CompareRules::read_file(const std::string& file) {
     if (const Node* n = table.find("mask")) read_masks(*n, e.rule);
     if (const Node* n = table.find("why")) e.rule.why = text_of(*n);
     if (const Node* n = table.find("skip")) {
-      if (n->kind != Node::Kind::kBool) refuse(n->where, fmt::format("skip: found {}, expected true or false", n->found()));
+      if (n->kind != Node::Kind::kBool)
+        refuse(n->where, fmt::format("skip: found {}, expected true or false", n->found()));
       e.rule.skip = n->boolean;
     }
     exceptions_.push_back(std::move(e));

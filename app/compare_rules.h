@@ -21,8 +21,8 @@ struct FrameRule {
 };
 
 /// "driver", "perceptual,flip=0.05", "levels=5,pixels=1%": a rung, and limits other than its own; the keys are pixels,
-/// levels, cluster (of driver), flip, visible (of perceptual, which they choose). `base`: what it changes. Throws UserError
-/// (kUsage) with `where` in front, naming the part that does not fit.
+/// levels, cluster (of driver), flip, visible (of perceptual, which they choose). `base`: what it changes. Throws
+/// UserError (kUsage) with `where` in front, naming the part that does not fit.
 render::Tolerance parse_tolerance(const std::string& text, const render::Tolerance& base, const std::string& where);
 
 class CompareRules {
@@ -35,7 +35,7 @@ class CompareRules {
   /// `number`: of the frame, -1 if its name has none.
   FrameRule rule_for(const std::string& name, int number) const;
 
-  const std::string& ids() const { return ids_; }           ///< picture or folder; empty: none
+  const std::string& ids() const { return ids_; }          ///< picture or folder; empty: none
   double flicker_limit() const { return flicker_limit_; }  ///< [levels]
   double pixels_per_degree() const { return pixels_per_degree_; }
 

@@ -48,7 +48,8 @@ std::vector<FramePair> references(const fs::path& reference) {
     throw UserError(ErrorKind::kInput, reference.string(),
                     "there is no such reference; --frames says which frames to render for a new one");
   if (fs::is_directory(reference, ignored)) {
-    for (const std::string& name : pictures_in(reference)) pairs.push_back({name, number_in(name), reference / name, {}});
+    for (const std::string& name : pictures_in(reference))
+      pairs.push_back({name, number_in(name), reference / name, {}});
     if (pairs.empty()) throw UserError(ErrorKind::kInput, reference.string(), "there is no picture in this folder");
   } else {
     pairs.push_back({reference.filename().string(), frame_of_picture(reference), reference, {}});

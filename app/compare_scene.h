@@ -23,9 +23,9 @@ class TemporaryFolder {
 
 bool is_scene(const std::string& file);
 
-/// Renders `a.actual` into `folder`: the frames whose numbers the pictures of `a.reference` have (a single picture: that
-/// in its text, or else in its name). Pairs of reference and new frame. A reference folder without pictures, or none:
-/// throws UserError (kInput).
+/// Renders `a.actual` into `folder`: the frames whose numbers the pictures of `a.reference` have (a single picture:
+/// that in its text, or else in its name). Pairs of reference and new frame. A reference folder without pictures, or
+/// none: throws UserError (kInput).
 std::vector<FramePair> render_for_comparison(const CompareArguments& a, const std::filesystem::path& folder);
 
 }  // namespace softreel::app

@@ -34,7 +34,8 @@ double distance_at(const std::vector<FrameResult>& frames, int shift) {
 std::vector<Misplaced> misplaced_frames(const std::vector<FrameResult>& frames) {
   std::map<std::string, std::vector<int>> by_pixels;
   for (std::size_t i = 0; i < frames.size(); ++i)
-    if (!frames[i].reference.pixel_hash.empty()) by_pixels[frames[i].reference.pixel_hash].push_back(static_cast<int>(i));
+    if (!frames[i].reference.pixel_hash.empty())
+      by_pixels[frames[i].reference.pixel_hash].push_back(static_cast<int>(i));
   std::vector<Misplaced> found;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (frames[i].good || frames[i].actual.pixel_hash.empty()) continue;

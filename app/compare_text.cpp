@@ -12,8 +12,8 @@ namespace {
 
 std::string shift_line(const TimeShift& s) {
   const int frames = std::abs(s.frames);
-  return fmt::format("shifted in time: the clip is {} frame{} {}; compared like that, {} of {} frames are good\n", frames,
-                     frames == 1 ? "" : "s", s.frames > 0 ? "late" : "early", s.good, s.all);
+  return fmt::format("shifted in time: the clip is {} frame{} {}; compared like that, {} of {} frames are good\n",
+                     frames, frames == 1 ? "" : "s", s.frames > 0 ? "late" : "early", s.good, s.all);
 }
 
 std::string misplaced_lines(const ClipResult& clip) {

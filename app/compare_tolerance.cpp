@@ -15,7 +15,8 @@ using assets::ErrorKind;
 using assets::UserError;
 
 constexpr const char* kAllowed =
-    "bytes, pixels (or same), driver, perceptual, and limits: pixels=0.1%, levels=3, cluster=25%, flip=0.01, visible=0.2%";
+    "bytes, pixels (or same), driver, perceptual, and limits: pixels=0.1%, levels=3, cluster=25%, flip=0.01, "
+    "visible=0.2%";
 
 [[noreturn]] void refuse(const std::string& where, const std::string& found) {
   throw UserError(ErrorKind::kUsage, fmt::format("{}: found \"{}\"; allowed are {}", where, found, kAllowed));
@@ -32,11 +33,16 @@ std::optional<double> number(std::string_view text) {
 }
 
 bool set_rung(const std::string& name, render::Tolerance& t) {
-  if (name == "bytes") t.rung = render::Rung::kBytes;
-  else if (name == "pixels" || name == "same") t.rung = render::Rung::kPixels;
-  else if (name == "driver") t.rung = render::Rung::kDriver;
-  else if (name == "perceptual") t.rung = render::Rung::kPerceptual;
-  else return false;
+  if (name == "bytes")
+    t.rung = render::Rung::kBytes;
+  else if (name == "pixels" || name == "same")
+    t.rung = render::Rung::kPixels;
+  else if (name == "driver")
+    t.rung = render::Rung::kDriver;
+  else if (name == "perceptual")
+    t.rung = render::Rung::kPerceptual;
+  else
+    return false;
   return true;
 }
 
@@ -48,11 +54,16 @@ bool set_limit(const std::string& key, double value, bool percent, render::Toler
     return true;
   }
   if (value < 0 || value > 1) return false;
-  if (key == "pixels") t.driver.pixels = value;
-  else if (key == "cluster") t.driver.cluster = value;
-  else if (key == "flip") t.perceptual.mean = value;
-  else if (key == "visible") t.perceptual.visible = value;
-  else return false;
+  if (key == "pixels")
+    t.driver.pixels = value;
+  else if (key == "cluster")
+    t.driver.cluster = value;
+  else if (key == "flip")
+    t.perceptual.mean = value;
+  else if (key == "visible")
+    t.perceptual.visible = value;
+  else
+    return false;
   return true;
 }
 

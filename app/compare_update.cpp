@@ -39,7 +39,8 @@ int update_references(const Comparison& c, const std::string& reference) {
   }
   for (std::size_t i = 0; i < c.pairs.size(); ++i)
     if (c.clip.frames[i].state == FrameState::kMissing)
-      fmt::print("kept: {} has no actual picture; remove it if the clip became shorter\n", c.pairs[i].reference.string());
+      fmt::print("kept: {} has no actual picture; remove it if the clip became shorter\n",
+                 c.pairs[i].reference.string());
   return written;
 }
 

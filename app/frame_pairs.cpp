@@ -23,8 +23,7 @@ bool is_picture(const fs::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   // NAME.actual.png is what an earlier comparison left beside a missing reference.
-  return kExtensions.count(extension) > 0 && file.filename().string()[0] != '.' &&
-         file.stem().extension() != ".actual";
+  return kExtensions.count(extension) > 0 && file.filename().string()[0] != '.' && file.stem().extension() != ".actual";
 }
 
 /// Runs of digits by their value, everything else by its bytes.
@@ -82,9 +81,8 @@ std::vector<FramePair> pair_frames(const fs::path& reference, const fs::path& ac
   if (actuals.empty()) throw UserError(ErrorKind::kInput, actual.string(), kNone);
   std::error_code ignored;
   if (fs::equivalent(reference, actual, ignored))
-    throw UserError(ErrorKind::kUsage,
-                    fmt::format("{} and {} are the same folder; nothing is compared with itself", reference.string(),
-                                actual.string()));
+    throw UserError(ErrorKind::kUsage, fmt::format("{} and {} are the same folder; nothing is compared with itself",
+                                                   reference.string(), actual.string()));
   std::vector<FramePair> pairs;
   std::size_t i = 0, j = 0;
   while (i < references.size() || j < actuals.size()) {

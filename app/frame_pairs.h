@@ -7,8 +7,8 @@
 namespace softreel::app {
 
 struct FramePair {
-  std::string name;                          ///< file name, that of the reference
-  int number = -1;                           ///< the last digits in the name; -1: none
+  std::string name;                         ///< file name, that of the reference
+  int number = -1;                          ///< the last digits in the name; -1: none
   std::filesystem::path reference, actual;  ///< empty: missing on that side
 };
 
@@ -16,8 +16,8 @@ struct FramePair {
 /// when it cannot be read.
 std::vector<std::string> pictures_in(const std::filesystem::path& folder);
 
-/// By name, in the order of pictures_in. Throws UserError (kInput) where a folder holds no picture and (kUsage) where both
-/// are the same folder.
+/// By name, in the order of pictures_in. Throws UserError (kInput) where a folder holds no picture and (kUsage) where
+/// both are the same folder.
 std::vector<FramePair> pair_frames(const std::filesystem::path& reference, const std::filesystem::path& actual);
 
 /// The last run of digits in a name; -1 for none or one beyond 9 digits.

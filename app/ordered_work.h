@@ -1,5 +1,6 @@
 #pragma once
-// Work on many things by several threads, whose results arrive one by one and in order; only a few are ever in the making.
+// Work on many things by several threads, whose results arrive one by one and in order; only a few are ever in the
+// making.
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
@@ -11,8 +12,9 @@
 
 namespace softreel::app {
 
-/// `work(i)` for i in [0, count) on `threads` threads (>= 1), `take(i, result)` on the calling thread in the order of i. At
-/// most 2 * threads results wait or are in the making. The first exception, in the order of i, ends it and is thrown here.
+/// `work(i)` for i in [0, count) on `threads` threads (>= 1), `take(i, result)` on the calling thread in the order of
+/// i. At most 2 * threads results wait or are in the making. The first exception, in the order of i, ends it and is
+/// thrown here.
 template <class Work, class Take>
 void ordered_work(int count, int threads, Work&& work, Take&& take) {
   using Result = decltype(work(0));

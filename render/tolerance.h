@@ -20,9 +20,9 @@ inline constexpr int kRungs = 4;
 struct DriverLimits {
   double pixels = 0.001;  ///< of all pixels, that differ at all; 0..1
   int levels = 3;         ///< of 255, in any channel
-  /// Of a window of kClusterWindow x kClusterWindow pixels, that differ. An edge that falls a pixel further differs along
-  /// a line: at most 2 * 16 * sqrt(2) = 45 of 256 pixels, both of its sides counted, and two such lines cross seldom. A
-  /// small thing that is new fills its window.
+  /// Of a window of kClusterWindow x kClusterWindow pixels, that differ. An edge that falls a pixel further differs
+  /// along a line: at most 2 * 16 * sqrt(2) = 45 of 256 pixels, both of its sides counted, and two such lines cross
+  /// seldom. A small thing that is new fills its window.
   double cluster = 0.25;
 };
 
@@ -40,7 +40,7 @@ struct Tolerance {
 struct Judgement {
   bool good = false;
   Rung reached = Rung::kDriver;  ///< the first rung that holds; without meaning if none up to tolerance.rung does
-  std::string limit;             ///< which limit decided, in words: "4 levels, at most 3 allowed"; empty where nothing differs
+  std::string limit;  ///< which limit decided, in words: "4 levels, at most 3 allowed"; empty where nothing differs
 };
 
 /// "bytes", "pixels", "driver", "perceptual".
