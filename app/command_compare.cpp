@@ -52,7 +52,7 @@ std::vector<FramePair> pairs_of(const CompareArguments& a, const std::optional<T
   if (is_folder(a.reference) != is_folder(a.actual))
     throw UserError(ErrorKind::kUsage,
                     "compare takes two pictures, two folders, or either and a scene; not a picture and a folder");
-  if (is_folder(a.reference)) return pair_frames(a.reference, a.actual);
+  if (is_folder(a.reference)) return pair_frames(a.reference, a.actual, a.update);
   const std::string name = fs::path(a.reference).filename().string();
   return {{name, number_in(name), a.reference, a.actual}};
 }
@@ -101,7 +101,7 @@ int run_compare(const CompareArguments& a) {
   if (is_scene(a.actual)) fresh.emplace();
   const int threads = a.threads > 0 ? a.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const std::vector<FramePair> pairs = pairs_of(a, fresh);
-  const bool folder = is_folder(a.reference) || (!exists(a.reference) && pairs.size() > 1);
+  const bool folder = names_folder(a.reference, pairs.size());
   int last = 0;
   for (const FramePair& pair : pairs) last = std::max(last, pair.number);
   rules.resolve(last);
@@ -110,7 +110,8 @@ int run_compare(const CompareArguments& a) {
   fmt::print("{}", closing_lines(c));
   write_outputs(c, a, folder);
   if (a.update) {
-    fmt::print("{} references updated\n", update_references(c, a.reference));
+    const int updated = update_references(c, a.reference);
+    fmt::print("{} reference{} updated\n", updated, updated == 1 ? "" : "s");
     return kDone;
   }
   leave_what_has_no_reference(c, a.reference, folder);

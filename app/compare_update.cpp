@@ -16,20 +16,20 @@ void copy_whole(const fs::path& from, const fs::path& to) {
 }
 
 /// The place of the reference of a pair: known, or to be made.
-fs::path place_of(const FramePair& pair, const std::string& reference) {
+fs::path place_of(const FramePair& pair, const std::string& reference, bool folder) {
   if (!pair.reference.empty()) return pair.reference;
-  std::error_code ignored;
-  return fs::is_directory(reference, ignored) ? fs::path(reference) / pair.name : fs::path(reference);
+  return folder ? fs::path(reference) / pair.name : fs::path(reference);
 }
 
 }  // namespace
 
 int update_references(const Comparison& c, const std::string& reference) {
   int written = 0;
+  const bool folder = names_folder(reference, c.pairs.size());
   for (std::size_t i = 0; i < c.pairs.size(); ++i) {
     const FrameResult& frame = c.clip.frames[i];
     if (frame.good || c.pairs[i].actual.empty()) continue;
-    const fs::path place = place_of(c.pairs[i], reference);
+    const fs::path place = place_of(c.pairs[i], reference, folder);
     if (place.has_parent_path()) assets::make_folders(place.parent_path());
     copy_whole(c.pairs[i].actual, place);
     std::error_code ignored;

@@ -26,6 +26,23 @@ bool is_picture(const fs::path& file) {
   return kExtensions.count(extension) > 0 && file.filename().string()[0] != '.' && file.stem().extension() != ".actual";
 }
 
+/// NAME.actual.png: what an earlier comparison left beside a missing reference.
+bool is_left_over(const std::string& name) { return fs::path(name).stem().extension() == ".actual"; }
+
+/// Pictures in a folder, left-overs included, in no order.
+std::vector<std::string> all_pictures_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    // A link that leads nowhere is a picture that is to be read, and will be told.
+    std::error_code ignored;
+    const bool file = it->is_regular_file(ignored) || it->is_symlink(ignored);
+    if (file && !it->is_directory(ignored) && is_picture(it->path())) names.push_back(it->path().filename().string());
+  }
+  if (error) throw UserError(ErrorKind::kInput, folder.string(), "cannot be read: " + error.message());
+  return names;
+}
+
 /// Runs of digits by their value, everything else by its bytes.
 bool by_number(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;
@@ -61,23 +78,23 @@ int number_in(const std::string& name) {
 }
 
 std::vector<std::string> pictures_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    // A link that leads nowhere is a picture that is to be read, and will be told.
-    std::error_code ignored;
-    const bool file = it->is_regular_file(ignored) || it->is_symlink(ignored);
-    if (file && !it->is_directory(ignored) && is_picture(it->path())) names.push_back(it->path().filename().string());
-  }
-  if (error) throw UserError(ErrorKind::kInput, folder.string(), "cannot be read: " + error.message());
+  std::vector<std::string> names = all_pictures_in(folder);
+  std::erase_if(names, is_left_over);
   std::sort(names.begin(), names.end(), by_number);
   return names;
 }
 
-std::vector<FramePair> pair_frames(const fs::path& reference, const fs::path& actual) {
+bool names_folder(const fs::path& path, std::size_t pictures) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return fs::is_directory(path, ignored);
+  return pictures > 1 || !path.has_extension();
+}
+
+std::vector<FramePair> pair_frames(const fs::path& reference, const fs::path& actual, bool make_references) {
   const std::vector<std::string> references = pictures_in(reference), actuals = pictures_in(actual);
   constexpr const char* kNone = "there is no picture in this folder (.png, .jpg, .jpeg, .bmp, .tga)";
-  if (references.empty()) throw UserError(ErrorKind::kInput, reference.string(), kNone);
+  if (references.empty() && !make_references && all_pictures_in(reference).empty())
+    throw UserError(ErrorKind::kInput, reference.string(), kNone);
   if (actuals.empty()) throw UserError(ErrorKind::kInput, actual.string(), kNone);
   std::error_code ignored;
   if (fs::equivalent(reference, actual, ignored))

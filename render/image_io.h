@@ -1,5 +1,5 @@
 #pragma once
-// Pictures from files: PNG, JPEG, TGA, BMP, PSD, GIF, PNM, HDR (as 8 bit), through stb_image.
+// Pictures from files: PNG, JPEG, TGA, BMP, HDR (as 8 bit), through stb_image.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

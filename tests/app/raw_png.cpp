@@ -50,7 +50,8 @@ std::string stored_zlib(const std::string& data) {
 }  // namespace
 
 std::string raw_png(int width, int height, int depth, int color, const std::string& rows, const std::string& palette) {
-  const std::size_t row = height > 0 ? rows.size() / static_cast<std::size_t>(height) : 0;
+  // At least one: a header may promise more than there is.
+  const std::size_t row = std::max<std::size_t>(height > 0 ? rows.size() / static_cast<std::size_t>(height) : 0, 1);
   std::string filtered;
   for (std::size_t y = 0; y * row < rows.size(); ++y) filtered += '\0' + rows.substr(y * row, row);
   std::string header = big_endian(static_cast<std::uint32_t>(width)) + big_endian(static_cast<std::uint32_t>(height));

@@ -6,8 +6,8 @@
 
 namespace softreel::test {
 
-/// ISO/IEC 15948. `color`: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA; `rows`: the samples, without filter bytes;
-/// `palette`: PLTE, 3 bytes a colour.
+/// ISO/IEC 15948. `color`: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA; `rows`: the samples, without filter
+/// bytes; `palette`: PLTE, 3 bytes a colour.
 std::string raw_png(int width, int height, int depth, int color, const std::string& rows,
                     const std::string& palette = "");
 

@@ -30,7 +30,7 @@ TEST_CASE("Two pictures: same bytes, same pixels, within what drivers differ in,
   expect(changed(3, 3), "3 of 3000 pixels", 1, {"--tolerance", "same"});
   expect(changed(3, 4), "4 of 3000 pixels", 1);
   expect(changed(4, 1), "at most 4 levels", 1);
-  expect(gradient(50, 60), "different sizes", 1);
+  expect(gradient(50, 60), "different: 50 x 60 pixels", 1);
 }
 
 TEST_CASE("A difference image shows where two pictures differ, and is written only then") {
@@ -198,7 +198,7 @@ TEST_CASE("A clip one frame late is told from a change, two swapped frames too, 
        {"--rules", strict.string()});
 }
 
-TEST_CASE("JSON, JUnit and the page say what the terminal says, one line a frame on request") {
+TEST_CASE("The JSON, the JUnit file and the page say what the terminal says, one line a frame on request") {
   test::TempFolder folder;
   const fs::path reference = folder / "reference", actual = folder / "a<&\"ctual";
   fs::create_directories(reference);
@@ -255,7 +255,7 @@ TEST_CASE(
   INFO(updated.out);
   CHECK(test::contains(updated.out, "f2.png: different"));
   CHECK(updated.out.find("f2.png: different") < updated.out.find("updated: "));
-  CHECK(test::contains(updated.out, "1 references updated"));
+  CHECK(test::contains(updated.out, "1 reference updated"));
   CHECK(test::slurp(reference / "f2.png") == test::slurp(actual / "f2.png"));
   CHECK(test::slurp(reference / "f1.png") == before);
   const auto single = folder / "new/picture.png";

@@ -43,7 +43,8 @@ TEST_CASE("A missing picture is a no, what is no picture is an error, also when 
   const auto picture = folder / "picture.png";
   render::write_png(picture, test::gradient());
   const std::string bytes = test::slurp(picture);
-  const auto noise = folder.write("noise.png", "these are no pixels"), twin = folder.write("twin.png", "these are no pixels");
+  const auto noise = folder.write("noise.png", "these are no pixels"),
+             twin = folder.write("twin.png", "these are no pixels");
   CHECK(test::compare(folder / "none.png", picture).code == 1);
   CHECK(test::compare(picture, folder / "none.png").code == 1);
   CHECK(test::compare(picture, std::string(5000, 'a')).code == 1);
@@ -93,11 +94,12 @@ TEST_CASE("Palette, grey, grey with alpha, RGBA and CMYK pictures are compared b
 TEST_CASE("16 bits a channel: the upper ones count as usual, what differs below counts as one level") {
   test::TempFolder folder;
   const auto deep = [&](const char* name, const std::string& sample, int changed, const std::string& other) {
-    return folder.write(name, test::raw_png(60, 50, 16, 0, repeated(other, changed) + repeated(sample, 3000 - changed)));
+    return folder.write(name,
+                        test::raw_png(60, 50, 16, 0, repeated(other, changed) + repeated(sample, 3000 - changed)));
   };
   const std::string base("\x40\x10", 2), fine("\x40\x20", 2), coarse("\x48\x10", 2);
-  const auto a = deep("a.png", base, 0, base), three = deep("three.png", base, 3, fine), many = deep("many.png", base, 9, fine),
-             far = deep("far.png", base, 1, coarse);
+  const auto a = deep("a.png", base, 0, base), three = deep("three.png", base, 3, fine),
+             many = deep("many.png", base, 9, fine), far = deep("far.png", base, 1, coarse);
   const test::RunResult small = test::compare(a, three);
   CHECK(small.code == 0);
   CHECK(test::contains(small.out, "3 of 3000 pixels"));
