@@ -60,6 +60,7 @@ Image frame(unsigned seed) {
 
 /// Runs the program; its seconds and peak memory [MiB].
 void run(const std::vector<std::string>& arguments, const char* what) {
+  std::fflush(stdout);  // or the child would print it again
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = fork();
   if (child == 0) {
