@@ -36,9 +36,21 @@ struct TurntableArguments : CommonArguments {
 };
 
 struct CompareArguments : CommonArguments {
-  std::string reference, actual;
-  std::string difference;  ///< file or folder for difference images; empty: none
-  std::string tolerance = "driver";
+  std::string reference, actual;       ///< pictures or folders; actual may be a scene, which is rendered then
+  std::string tolerance;               ///< empty: that of the rules, or else driver
+  std::string rules;                   ///< TOML file
+  std::vector<std::string> masks;      ///< x,y,width,height [px]
+  std::vector<int> mask_ids;           ///< body ids
+  std::string ids;                     ///< picture or folder of body ids
+  double flip_distance = 0;            ///< pixels per degree; 0: the paper's
+  std::string frames;                  ///< of the scene; empty: those that the reference shows
+  std::vector<std::string> overrides;  ///< of the scene
+  std::string command;                 ///< as it was typed
+  std::string output;                  ///< difference picture, or folder for them
+  std::string json, junit, report;     ///< files; empty: not written
+  int report_pictures = 24;            ///< frames whose pictures the report holds
+  bool each = false;                   ///< a line for every frame
+  bool update = false;                 ///< actual pictures become the references
 };
 
 struct CheckArguments : CommonArguments {

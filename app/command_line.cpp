@@ -80,6 +80,42 @@ void add_study(CLI::App& command, StudyArguments& a) {
   add_common(command, a);
 }
 
+void add_compare(CLI::App& command, CompareArguments& a) {
+  command.add_option("reference", a.reference, "picture or folder that is right")->required();
+  command.add_option("actual", a.actual, "picture or folder to judge, or a scene to render for it")->required();
+  command.add_option("--tolerance", a.tolerance,
+                     "bytes, pixels (same), driver (default), perceptual; limits: levels=5,pixels=1%,cluster=30%, "
+                     "flip=0.02,visible=1%");
+  command.add_option("--rules", a.rules, "TOML file with tolerance, masks and exceptions for some frames");
+  command.add_option("--mask", a.masks, "a rectangle that does not count: x,y,width,height [px]; may be repeated")
+      ->type_name("X,Y,W,H")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--ids", a.ids, "picture of body ids (grey, 8 or 16 bits), or folder with one for each frame");
+  command.add_option("--mask-id", a.mask_ids, "a body that does not count, by its id; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0, 65535));
+  command.add_option("--pixels-per-degree", a.flip_distance, "how far one looks from, for FLIP (default: 67)")
+      ->check(CLI::Range(1.0, 1000.0));
+  command.add_option("--frames", a.frames, "of a scene (default: those that the reference shows)");
+  command.add_option("--set", a.overrides, "override a key of the scene")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", a.output,
+                     "write pictures of the differences there (file for one, folder for many)");
+  command.add_option("--json", a.json, "write every figure to this file");
+  command.add_option("--junit", a.junit, "write JUnit XML to this file");
+  command.add_option("--report", a.report, "write one HTML page to this file");
+  command.add_option("--report-pictures", a.report_pictures, "frames whose pictures the page holds, the worst first")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command.add_flag("--each", a.each, "print a line for every frame, good ones too");
+  command.add_flag("--update", a.update, "say what changes, then make the actual pictures the references");
+  add_common(command, a);
+}
+
 /// Before CLI11 says that a command is missing, which is not what is wrong with a misspelled one.
 void refuse_unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> names;
@@ -145,18 +181,10 @@ int run_command_line(int argc, char** argv) {
   app.get_subcommand("study")->callback([&] { run = [&] { return run_study(study); }; });
 
   CompareArguments compare;
-  command = app.add_subcommand("compare", "two pictures, or two folders of frames; exit code 1 if they differ");
-  command->add_option("reference", compare.reference, "picture or folder that is right")->required();
-  command->add_option("actual", compare.actual, "picture or folder to judge")->required();
-  command->add_option("-o,--output", compare.difference,
-                      "write difference images there (file for one, folder for many)");
-  command
-      ->add_option("--tolerance", compare.tolerance,
-                   "same: same pixels; driver: at most 3 of 255 levels on at most 0.1 % of the pixels")
-      ->check(CLI::IsMember({"same", "driver"}))
-      ->capture_default_str();
-  add_common(*command, compare);
-  command->callback([&] { run = [&] { return run_compare(compare); }; });
+  compare.command = study.command;
+  add_compare(*app.add_subcommand("compare", "pictures or clips against references; exit code 1 if they differ"),
+              compare);
+  app.get_subcommand("compare")->callback([&] { run = [&] { return run_compare(compare); }; });
 
   CheckArguments check;
   command = app.add_subcommand("check", "validate a scene; print what it needs and what is left out, and why");

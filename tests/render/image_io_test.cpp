@@ -89,3 +89,29 @@ TEST_CASE("pictures can come from memory, and are named in errors") {
     CHECK(std::string(error.what()).find("scene.glb: texture 2") != std::string::npos);
   }
 }
+
+TEST_CASE("a JPEG whose Huffman table has more codes than there are bytes is refused, wherever it stands") {
+  // Found by fuzzing: stb_image writes such a table beyond its end.
+  const ScratchFolder folder;
+  std::vector<unsigned char> table{0xff, 0xc4, 0x01, 0x20, 0x00};
+  for (int i = 0; i < 16; ++i) table.push_back(17);  // 272 codes
+  table.resize(table.size() + 272);
+  const std::vector<unsigned char> comment{0xff, 0xfe, 0, 4, 'h', 'i'}, scan{0xff, 0xda, 0, 2, 1, 2, 3};
+  for (const auto& before : {std::vector<unsigned char>{}, comment, scan, std::vector<unsigned char>{0, 1}}) {
+    std::vector<unsigned char> file{0xff, 0xd8};
+    file.insert(file.end(), before.begin(), before.end());
+    file.insert(file.end(), table.begin(), table.end());
+    write_bytes(folder / "table.jpg", file);
+    CHECK(complaint(folder / "table.jpg").find("Huffman") != std::string::npos);
+  }
+}
+
+TEST_CASE("kinds of pictures whose readers are not safe are not read") {
+  const ScratchFolder folder;
+  for (const std::string header : {"P6 2 2 65535\n", "P5 2 2 255\n", "GIF89a", "8BPS"}) {
+    std::vector<unsigned char> file(header.begin(), header.end());
+    file.resize(file.size() + 64, 1);
+    write_bytes(folder / "picture", file);
+    CHECK(complaint(folder / "picture").find("PNG, JPEG, TGA, BMP and HDR can be read") != std::string::npos);
+  }
+}
