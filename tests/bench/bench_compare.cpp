@@ -1,5 +1,5 @@
-// Milliseconds for two pictures of 1920 x 1080, decoding included, by each rung; and time and memory for a folder of 240 of
-// them. Prints medians; judges nothing.
+// Milliseconds for two pictures of 1920 x 1080, decoding included, by each rung; and time and memory for a folder of
+// 240 of them. Prints medians; judges nothing.
 //
 //   build/release/tests/bench_compare [REFERENCE.png ACTUAL.png]
 #include <sys/resource.h>
@@ -75,8 +75,8 @@ void run(const std::vector<std::string>& arguments, const char* what) {
   rusage usage{};
   wait4(child, &status, 0, &usage);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%-44s %7.2f s, %5.1f ms a frame, peak memory %ld MiB, exit code %d\n", what, seconds, seconds / 240 * 1e3,
-              usage.ru_maxrss / 1024, WEXITSTATUS(status));
+  std::printf("%-44s %7.2f s, %5.1f ms a frame, peak memory %ld MiB, exit code %d\n", what, seconds,
+              seconds / 240 * 1e3, usage.ru_maxrss / 1024, WEXITSTATUS(status));
 }
 
 }  // namespace
@@ -102,8 +102,9 @@ int main(int argc, char** argv) {
   });
   const double figures = median_of(9, [&] { compare(x, y); });
   const double one = median_of(5, [&] { flip(x, y, {}, 1); }), two = median_of(5, [&] { flip(x, y, {}, 2); });
-  std::printf("two pictures of %d x %d, two threads [ms]: decode both %.1f, figures %.1f; FLIP %.1f (one thread %.1f)\n",
-              x.width, x.height, decode, figures, two, one);
+  std::printf(
+      "two pictures of %d x %d, two threads [ms]: decode both %.1f, figures %.1f; FLIP %.1f (one thread %.1f)\n",
+      x.width, x.height, decode, figures, two, one);
   std::printf("driver: %.1f ms; with FLIP: %.1f ms\n", decode + figures, decode + figures + two);
   for (int i = 2; i <= 240; ++i) {
     char name[32];
