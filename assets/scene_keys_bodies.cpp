@@ -190,7 +190,11 @@ void walk(KeyVisitor& v, Collider& c) {
   v.key({"radius", kPhysics, "m", kLength, "of a sphere or capsule"}, &c.radius);
   v.key({"size", kPhysics, "m", kLength, "of a box, around its origin"}, &c.size);
   v.key({"height", kPhysics, "m", kLength, "of a capsule, along y, between the centres of its round ends"}, &c.height);
-  walk_mesh(v, c.mesh);
+  // A mesh's `size` would be that of a box: scale does.
+  v.key({"mesh", kPhysics, "", {}, "of shape mesh, open or closed; file: OBJ, PLY, STL, OFF, glTF, FBX, ..."},
+        FileRef{&c.mesh.path});
+  v.key({"unit", kPhysics, "m", above(0, 1e6), "of the mesh file"}, UnitRef{&c.mesh.unit});
+  v.key({"up", kPhysics, "", {}, "axis of the mesh file that points up"}, choice(c.mesh.up));
   v.key({"thickness", kPhysics, "m", at_least(0, 1e3), "of a mesh: half of it on either side"}, &c.thickness);
   v.key({"friction", kPhysics, "", at_least(0, 100), "Coulomb's coefficient"}, &c.friction);
   walk_transform(v, c.transform);

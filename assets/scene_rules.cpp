@@ -291,7 +291,7 @@ void check(KeyVisitor& v, Collider& c) {
   only_for(v, shape == ColliderShape::kBox, {"size"}, "is for shape = \"box\"");
   only_for(v, shape == ColliderShape::kCapsule, {"height"}, "is for shape = \"capsule\"");
   const bool mesh = shape == ColliderShape::kMesh;
-  only_for(v, mesh, {"mesh", "unit", "up", "size", "thickness"}, "is for shape = \"mesh\"");
+  only_for(v, mesh, {"mesh", "unit", "up", "thickness"}, "is for shape = \"mesh\"");
   if (mesh && c.mesh.path.empty()) v.problem("", "has shape = \"mesh\" and no mesh; add mesh = \"FILE\"");
   nonzero(v, "normal", c.normal);
   c.normal.normalize();

@@ -40,7 +40,7 @@ TEST_CASE("Command lines that make no sense are refused") {
       {"export of an unknown kind", {"simulate", scene, "--export", "abc"}, 2, {"abc", "vtu"}},
       {"check without a scene", {"check"}, 2, {"--list"}},
       {"one picture to compare", {"compare", picture}, 2, {"actual"}},
-      {"a picture and a folder", {"compare", picture, folder.path().string()}, 2, {"not one of each"}},
+      {"a picture and a folder", {"compare", picture, folder.path().string()}, 2, {"not a picture and a folder"}},
       {"unknown tolerance", {"compare", picture, picture, "--tolerance", "some"}, 2, {"some"}},
       {"no pictures in a turn", {"turntable", mesh, "-o", out, "--count", "0"}, 2, {"--count"}},
       {"turntable of 100,000 pixels", {"turntable", mesh, "-o", out, "--size", "100000", "10"}, 2, {"--size"}},

@@ -71,7 +71,8 @@ TEST_CASE("Names of bodies that are no names of files do not leave the folder") 
   test::TempFolder folder;
   std::string text;
   for (const char* name : {"/tmp/softreel-absolute", "a/b", "a:b", "a_b", "-dash", "büst"})
-    text += "[[cloth]]\nname = \"" + std::string(name) + "\"\ngrid = { cells = [1, 1] }\n";
+    text +=
+        "[[cloth]]\nname = \"" + std::string(name) + "\"\ngrid = { cells = [1, 1] }\ncontact = { others = false }\n";
   const fs::path out = exported(folder, "ply", "1", "[time]\nduration = 0.05\n" + text);
   CHECK(test::files_below(out).size() == 6);
   for (const auto& [name, bytes] : test::files_below(folder.path()))

@@ -34,7 +34,7 @@ TEST_CASE("a mistake in the file is reported where it stands, with what is allow
       {"[rendr]\nsamples = 4", 1, 2, {"unknown", "\"rendr\"", "did you mean \"render\"?"}},
       {"[[colider]]", 1, 3, {"unknown", "did you mean \"collider\"?"}},
       {"[camera]\nfoc = 40", 2, 1, {"\"foc\" in [camera]", "did you mean \"fov\"?"}},
-      {"[contact]\nself = true", 2, 1, {"\"self\"", "there is: distance, slip_speed, stiffness"}},
+      {"[contact]\nselfish = true", 2, 1, {"\"selfish\"", "self"}},
       {"[[soft]]\nblock = {}\nyoung = 1e5", 3, 1, {"\"young\" in [[soft]]", "belongs in [soft.material]"}},
       {"[[soft]]\nblock = { sise = [1, 1, 1] }", 2, 11, {"\"sise\"", "did you mean \"size\"?"}},
       // Values of the wrong type.
