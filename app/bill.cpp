@@ -80,7 +80,12 @@ std::vector<BillItem> bill_of(const Scene& s) {
       "time.accuracy is given: coarser runs, to compare with", "no time.accuracy is given");
   add("shadow maps", count(s.lights, [](const Light& l) { return l.shadow; }) > 0, "a light casts shadows",
       "no light casts shadows");
-  add("accumulation buffer", s.render.samples > 1, fmt::format("samples = {}", s.render.samples), "samples = 1");
+  add("accumulation buffer", s.render.samples != 1,
+      s.render.samples == 0 ? std::string("samples = auto") : fmt::format("samples = {}", s.render.samples),
+      "samples = 1");
+  add("motion blur", s.render.shutter > 0, fmt::format("shutter = {:.4g}", s.render.shutter), "shutter = 0");
+  add("depth of field", s.camera.aperture > 0, fmt::format("aperture = {:.4g} m", s.camera.aperture), "aperture = 0");
+  add("estimate of the error of pictures", s.render.samples == 0, "samples = auto", "samples is a number");
   add("textures", count(s.assets, [](const AssetUse& a) { return !a.physics; }) > 0, "a look names a texture",
       "no look names a texture (mesh files may bring their own)");
   return bill;

@@ -78,7 +78,11 @@ void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
                                     {"softreel:sim_hash", plan.figures.simulation_hash},
                                     {"Software", "softreel " + version()},
                                     {"softreel:driver", stage.renderer().driver()}};
-      writer.write(plan.output / frame_file_name(f), stage.draw(must_read(plan.cache, f)), text);
+      std::optional<CachedFrame> before;
+      if (plan.scene.render.shutter > 0 && f > 1) before = must_read(plan.cache, f - 1);
+      writer.write(plan.output / frame_file_name(f),
+                   stage.draw(f, must_read(plan.cache, f), before ? &*before : nullptr), text);
+      plan.figures.pictures.push_back(stage.renderer().last_picture());
       ++plan.figures.frames_rendered;
       progress.advance();
     }

@@ -84,9 +84,10 @@ std::vector<ReportPicture> pictures(const Sweep& sweep, const std::vector<StudyR
     assets::Scene scene = sweep.variants[i].scene;
     const auto [width, height] = scene.render.size;
     scene.render.size = {320, std::max(1, static_cast<int>(std::lround(320.0 * height / width)))};
-    scene.render.samples = std::min(scene.render.samples, 4);
+    scene.render.samples = scene.render.samples == 0 ? 4 : std::min(scene.render.samples, 4);
     try {
-      const std::vector<unsigned char> png = render::encode_png(Stage(scene, shapes.of(scene), extent).draw(*frame));
+      const std::vector<unsigned char> png =
+          render::encode_png(Stage(scene, shapes.of(scene), extent).draw(1, *frame, nullptr));
       result.push_back({fmt::format("{}: {}, {:.2g} m off", what, row->label, row->errors->worst),
                         std::string(png.begin(), png.end())});
     } catch (const render::RenderError&) {

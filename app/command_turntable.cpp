@@ -60,7 +60,11 @@ int run_turntable(const TurntableArguments& a) {
   render::Bounds bounds;
   for (const sim::Vec3& p : surface.welded.vertices) points.push_back(to_glm(p));
   bounds.add(points);
-  render::Renderer renderer({a.size[0], a.size[1], a.samples, 0, 0});
+  render::RenderOptions options;
+  options.width = a.size[0];
+  options.height = a.size[1];
+  options.samples = a.samples;
+  render::Renderer renderer(options);
   DrawnSurface drawn = drawn_surface(surface, static_cast<int>(points.size()), look, std::nullopt, true);
   const render::MeshId mesh = renderer.add_mesh(std::move(drawn.mesh), std::move(drawn.looks));
   renderer.set_positions(mesh, points);

@@ -6,6 +6,7 @@
 #include "app/convert.h"
 #include "app/drawn_surface.h"
 #include "app/placement.h"
+#include "app/scene_camera.h"
 #include "app/world.h"
 
 namespace softreel::app {
@@ -85,11 +86,38 @@ void for_each_net(const assets::Scene& scene, const Shapes& shapes, const Each& 
 
 }  // namespace
 
+namespace {
+
+render::RenderOptions options_of(const assets::Render& r) {
+  constexpr int kMostAuto =
+      1024;  // far beyond what the eye tells apart; keeps an unreachable tolerance from running on
+  render::RenderOptions options;
+  options.width = r.size[0];
+  options.height = r.size[1];
+  options.samples = r.samples == 0 ? kMostAuto : r.samples;
+  options.tolerance = r.samples == 0 ? r.tolerance : 0;
+  options.seed = static_cast<std::uint32_t>(r.seed);
+  return options;
+}
+
+/// The state at `time` between two frames: 0 `a`, 1 `b`. Only what is drawn.
+CachedFrame between(const CachedFrame& a, const CachedFrame& b, double time) {
+  CachedFrame frame = b;
+  frame.state.t = (1 - time) * a.state.t + time * b.state.t;
+  frame.state.x = (1 - time) * a.state.x + time * b.state.x;
+  for (size_t i = 0; i < frame.fields.size(); ++i)
+    frame.fields[i].value = (1 - time) * a.fields[i].value + time * b.fields[i].value;
+  return frame;
+}
+
+}  // namespace
+
 bool needs_whole_clip(const assets::Scene& scene) {
   const bool camera = !scene.camera.position || !scene.camera.target;
   const bool ground = scene.render.ground.show != assets::GroundMode::kOff && !scene.render.ground.height;
   const bool light = std::any_of(scene.lights.begin(), scene.lights.end(), [](const assets::Light& l) {
-    return l.kind == assets::LightKind::kArea && (!l.position || !l.radius);
+    return l.kind != assets::LightKind::kSun &&
+           (!l.position || (l.kind == assets::LightKind::kArea ? !l.radius : !l.size));
   });
   const bool range =
       std::any_of(scene.fields.begin(), scene.fields.end(), [](const assets::Field& f) { return !f.range; });
@@ -131,48 +159,8 @@ void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFra
       extent.add(moved(shape_of(c, extent), make_collider(c).pose(state.t)));
 }
 
-render::Camera camera_of(const assets::Scene& scene, const ClipExtent& extent,
-                         const std::vector<render::ColorBar>& color_bars) {
-  render::Camera camera;
-  const assets::Camera& c = scene.camera;
-  const float whole_aspect = static_cast<float>(scene.render.size[0]) / static_cast<float>(scene.render.size[1]);
-  // Colour bars take a part of the right side; what is left of it frames the scene.
-  const float bars = std::min(
-      0.5f, static_cast<float>(render::color_bars_width(scene.render.size[0], scene.render.size[1], color_bars)) /
-                static_cast<float>(scene.render.size[0]));
-  const float aspect = whole_aspect * (1 - bars);
-  const float fov = static_cast<float>(c.fov);
-  camera.fov = fov;
-  camera.up = to_vec(c.up);
-  if (c.position) {
-    camera.position = to_vec(*c.position);
-    camera.target = c.target ? to_vec(*c.target) : extent.bounds.centre();
-    return camera;
-  }
-  const render::Camera framed = render::frame_points(extent.points, fov, aspect, glm::normalize(to_vec(c.direction)));
-  if (!c.target) {
-    camera = framed;
-  } else {
-    // Look at the target from as far as the framing asks for.
-    camera.target = to_vec(*c.target);
-    camera.position =
-        camera.target + glm::length(framed.position - framed.target) * glm::normalize(to_vec(c.direction));
-  }
-  camera.up = to_vec(c.up);
-  if (bars > 0 && !c.target) {  // half of that to the side brings the scene into the middle of the rest
-    const glm::vec3 ahead = camera.target - camera.position;
-    const glm::vec3 right = glm::normalize(glm::cross(ahead, camera.up));
-    const glm::vec3 aside = right * (bars * whole_aspect * glm::length(ahead) * std::tan(glm::radians(fov) / 2));
-    camera.position += aside;
-    camera.target += aside;
-  }
-  return camera;
-}
-
 Stage::Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent)
-    : scene_(scene),
-      renderer_({scene.render.size[0], scene.render.size[1], scene.render.samples,
-                 static_cast<std::uint32_t>(scene.render.seed), 0}) {
+    : scene_(scene), renderer_(options_of(scene.render)) {
   add_bodies(shapes);
   add_fields(shapes, extent);
   add_colliders(extent);
@@ -234,8 +222,14 @@ void Stage::place_lights(const ClipExtent& extent) {
     } else {
       const glm::vec3 position = l.position ? to_vec(*l.position) : centre + 3 * size * direction;
       const float distance = glm::length(position - centre);
-      light =
-          render::area_light(position, centre, l.radius ? static_cast<float>(*l.radius) : 0.1f * distance, intensity);
+      const float side = 0.2f * distance;
+      if (l.kind == assets::LightKind::kRectangle)
+        light = render::rectangle_light(
+            position, centre,
+            l.size ? glm::vec2(static_cast<float>((*l.size)[0]), static_cast<float>((*l.size)[1])) : glm::vec2(side),
+            intensity);
+      else
+        light = render::area_light(position, centre, l.radius ? static_cast<float>(*l.radius) : 0.5f * side, intensity);
     }
     light.color = to_linear(l.color);
     light.casts_shadow = l.shadow;
@@ -271,7 +265,7 @@ void Stage::place_ground(const ClipExtent& extent) {
   }
 }
 
-render::Image Stage::draw(const CachedFrame& frame) {
+void Stage::move_to(const CachedFrame& frame) {
   const sim::State& state = frame.state;
   for (const DrawnBody& body : bodies_) renderer_.set_positions(body.mesh, points_of(state.x, body.first, body.count));
   for (const DrawnNet& net : nets_) renderer_.set_positions(net.mesh, net.shape->positions(state.x, net.first));
@@ -282,7 +276,21 @@ render::Image Stage::draw(const CachedFrame& frame) {
     renderer_.set_positions(fields_[i].mesh, fields_[i].surface.positions(value));
     renderer_.set_values(fields_[i].mesh, map_places(value, fields_[i].range));
   }
-  render::Image picture = renderer_.render(camera_, lights_, environment_);
+}
+
+render::Image Stage::draw(int number, const CachedFrame& frame, const CachedFrame* before) {
+  if (scene_.render.animate_seed)
+    renderer_.set_seed(static_cast<std::uint32_t>(scene_.render.seed) + static_cast<std::uint32_t>(number));
+  render::Shutter shutter;
+  const double open = scene_.render.shutter;
+  if (open > 0 && before)
+    shutter = [&](float time) {
+      move_to(between(*before, frame, 1 - open * (1 - static_cast<double>(time))));
+      return camera_;
+    };
+  else
+    move_to(frame);
+  render::Image picture = renderer_.render(camera_, lights_, environment_, shutter);
   if (!bars_.empty()) render::draw_color_bars(picture, bars_);
   return picture;
 }

@@ -30,18 +30,14 @@ struct ClipExtent {
 /// The visible bodies, fields and colliders of one frame.
 void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& frame, ClipExtent& extent);
 
-/// The scene's camera; `extent` frames the clip where the scene leaves it open. `color_bars` take a part of the
-/// picture.
-render::Camera camera_of(const assets::Scene& scene, const ClipExtent& extent,
-                         const std::vector<render::ColorBar>& color_bars = {});
-
 class Stage {
  public:
   /// Builds meshes and looks; camera, ground and lights from `extent` where the scene leaves them open. `scene` and
   /// `shapes` must outlive this.
   Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent);
 
-  render::Image draw(const CachedFrame& frame);
+  /// The picture of frame `number`. `before`: the frame before it, where there is one; used when the shutter is open.
+  render::Image draw(int number, const CachedFrame& frame, const CachedFrame* before);
   const render::Renderer& renderer() const { return renderer_; }
 
  private:
@@ -50,6 +46,7 @@ class Stage {
   void add_colliders(const ClipExtent& extent);
   void place_lights(const ClipExtent& extent);
   void place_ground(const ClipExtent& extent);
+  void move_to(const CachedFrame& frame);
 
   struct DrawnBody {
     render::MeshId mesh;

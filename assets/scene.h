@@ -27,7 +27,9 @@ enum class BendingModel { kAuto, kQuadratic, kDiscreteShell };  ///< kAuto: quad
 enum class TetrahedralizeMode { kConform };
 enum class UpAxis { kX, kY, kZ };
 enum class ColliderShape { kPlane, kSphere, kBox, kCapsule };
-enum class LightKind { kArea, kSun };
+enum class LightKind { kArea, kSun, kRectangle };
+enum class Projection { kPerspective, kOrthographic };
+enum class Quality { kDraft, kDefault, kFinal };
 enum class GroundMode { kAuto, kOn, kOff };
 enum class ColorMap { kViridis, kInferno, kMagma, kCoolwarm };
 
@@ -323,15 +325,20 @@ struct Camera {
   std::optional<Vec3> target;            ///< [m]; absent: the middle of what is to be seen
   Vec3 direction = Vec3(0.55, 0.35, 1);  ///< from the target to the camera, when `position` is absent [-]
   Vec3 up = Vec3::UnitY();               ///< [-]
-  double fov = 35;                       ///< vertical angle of view [deg]
+  Projection projection = Projection::kPerspective;
+  double fov = 35;               ///< vertical angle of view [deg]
+  std::optional<double> height;  ///< that an orthographic picture covers [m]; absent: framed
+  double aperture = 0;           ///< diameter of the lens [m]; 0: everything is sharp
+  std::optional<double> focus;   ///< distance at which things are sharp [m]; absent: that of the target
 };
 
 struct Light {
   LightKind kind = LightKind::kArea;
-  std::optional<Vec3> position;         ///< of an area light [m]; absent: in `direction`, three scene sizes away
+  std::optional<Vec3> position;         ///< of a light at a place [m]; absent: in `direction`, three scene sizes away
   Vec3 direction = Vec3(0.5, 1, 0.35);  ///< from the scene to the light [-]
   std::optional<double> radius;         ///< of an area light [m]; absent: a tenth of its distance
-  double angle = 2;                     ///< a sun's angle of sight [deg]
+  std::optional<std::array<double, 2>> size;  ///< of a rectangle, width and height [m]; absent: 0.2 of its distance
+  double angle = 2;                           ///< a sun's angle of sight [deg]
   Color color = {1, 0.97, 0.92};
   double intensity = 1;  ///< [-] 1: a white surface that faces it, in the middle of the scene, comes out nearly white
   bool shadow = true;
@@ -353,8 +360,12 @@ struct Ground {
 
 struct Render {
   std::array<int, 2> size = {1280, 720};  ///< width, height [pixels]
-  int samples = 16;                       ///< passes averaged into one frame
+  Quality quality = Quality::kDefault;    ///< sets `samples`, where that is not given
+  int samples = 16;                       ///< passes averaged into one frame; 0: as many as `tolerance` needs
+  double tolerance = 0.5;                 ///< of the estimated error when samples is 0, RMS [levels of 255]
   int seed = 0;                           ///< of the sample positions
+  bool animate_seed = false;              ///< another seed for each frame
+  double shutter = 0;                     ///< part of the time between two frames in which light falls in, 0..1
   Background background;
   Ground ground;
   double exposure = 0;  ///< [stops]

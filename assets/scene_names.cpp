@@ -14,7 +14,9 @@ constexpr Array<3> kBendingModel = {"auto", "quadratic", "discrete-shell"};
 constexpr Array<1> kTetrahedralizeMode = {"conform"};
 constexpr Array<3> kUpAxis = {"x", "y", "z"};
 constexpr Array<4> kColliderShape = {"plane", "sphere", "box", "capsule"};
-constexpr Array<2> kLightKind = {"area", "sun"};
+constexpr Array<3> kLightKind = {"area", "sun", "rectangle"};
+constexpr Array<2> kProjection = {"perspective", "orthographic"};
+constexpr Array<3> kQuality = {"draft", "default", "final"};
 constexpr Array<3> kGroundMode = {"auto", "on", "off"};
 constexpr Array<4> kColorMap = {"viridis", "inferno", "magma", "coolwarm"};
 }  // namespace
@@ -26,6 +28,8 @@ Names names_of(TetrahedralizeMode) { return kTetrahedralizeMode; }
 Names names_of(UpAxis) { return kUpAxis; }
 Names names_of(ColliderShape) { return kColliderShape; }
 Names names_of(LightKind) { return kLightKind; }
+Names names_of(Projection) { return kProjection; }
+Names names_of(Quality) { return kQuality; }
 Names names_of(GroundMode) { return kGroundMode; }
 Names names_of(ColorMap) { return kColorMap; }
 

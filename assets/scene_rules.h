@@ -1,8 +1,17 @@
 #pragma once
 // Rules that tie keys together. Each reports what breaks it through `v.problem`, with a path from the keys just walked.
+#include <initializer_list>
+
 #include "assets/scene_table.h"
 
 namespace softreel::assets {
+
+/// A key that the choice made elsewhere leaves without a meaning.
+void only_for(KeyVisitor& v, bool applies, std::initializer_list<const char*> keys, const char* rule);
+void nonzero(KeyVisitor& v, const char* key, const Vec3& direction);
+
+/// Sets what the preset stands for.
+void apply_quality(Render& render);
 
 /// Finds the bodies that loads and attachments speak of, too.
 void check(KeyVisitor& v, Scene& scene);

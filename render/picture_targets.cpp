@@ -66,7 +66,7 @@ void PictureTargets::begin_lighting(int pass, int passes, RenderCounters& counte
   gl_.BindSampler(kDepthUnit, *nearest_);
 }
 
-FloatImage PictureTargets::read(int passes) {
+FloatImage PictureTargets::read(float weight) {
   FloatImage film;
   film.width = width_;
   film.height = height_;
@@ -75,10 +75,8 @@ FloatImage PictureTargets::read(int passes) {
     layer.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     gl_.NamedFramebufferReadBuffer(*film_, attachment);
     gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, layer.data());
-    if (passes > 1) {
-      const float weight = 1.0f / static_cast<float>(passes);
+    if (weight != 1)
       for (glm::vec4& pixel : layer) pixel *= weight;
-    }
   };
   read_layer(GL_COLOR_ATTACHMENT0, film.rgba);
   if (display_) read_layer(GL_COLOR_ATTACHMENT1, film.display);

@@ -20,8 +20,8 @@ class PictureTargets {
   /// buffer: every pass is added to it, in order, so that the sum has the same bits every time. `pass`: 0 begins a new
   /// sum.
   void begin_lighting(int pass, int passes, RenderCounters& counters);
-  /// The mean of the passes.
-  FloatImage read(int passes);
+  /// The sum of the passes so far times `weight`.
+  FloatImage read(float weight);
 
  private:
   const GlFunctions& gl_;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "render/color_map.h"
+#include "render/error_estimate.h"
 #include "render/gl_context.h"
 #include "render/gpu_mesh.h"
 #include "render/pass_setup.h"
@@ -31,6 +32,8 @@ void check_options(const RenderOptions& options) {
     throw std::invalid_argument(
         fmt::format("shadow maps of {} texels: must be 16 to 8192, or 0", options.shadow_map_size));
 }
+
+constexpr int kFirstPasses = 8;  // before the error of a picture is estimated
 
 int shadow_map_size(const RenderOptions& options) {
   if (options.shadow_map_size != 0) return options.shadow_map_size;
@@ -55,6 +58,7 @@ struct Renderer::State {
   GlContext context;
   GlFunctions gl;
   RenderCounters counters;
+  PictureReport report;
   PictureTargets targets;
   Programs programs;
   ColorTextures textures;
@@ -114,13 +118,16 @@ struct Renderer::State {
     features.lights = static_cast<int>(picture.lights.size());
     for (std::size_t light = 0; light < picture.lights.size(); ++light)
       if (picture.shadow_map[light] >= 0) features.shadow_lights |= 1u << light;
+    features.rectangles = std::any_of(picture.lights.begin(), picture.lights.end(),
+                                      [](const Light& light) { return light.kind == LightKind::kRectangle; });
     features.sky_shadow = picture.sky_map >= 0;
     features.ground = environment.ground.visible;
     features.field = has_fields();
     for (const GpuMesh* mesh : meshes_drawn)
       for (const Look& look : mesh->looks()) features.sheen = features.sheen || look.sheen > 0;
     // What few passes cannot average they must filter.
-    features.shadow_taps = picture.passes == 1 ? 10 : picture.passes < 8 ? 6 : 3;
+    const int passes = options.samples;
+    features.shadow_taps = passes == 1 ? 10 : passes < 8 ? 6 : 3;
     return features;
   }
 
@@ -207,6 +214,21 @@ struct Renderer::State {
     return bounds;
   }
 
+  /// `half`: sum of the first half of the passes, `sum`: of all `passes`.
+  double error_of(const FloatImage& half, const FloatImage& sum, int passes, const Environment& environment) const {
+    const float weight = 2.0f / static_cast<float>(passes);
+    FloatImage first = half, second = sum;
+    const auto means = [&](std::vector<glm::vec4>& of_first, std::vector<glm::vec4>& of_second) {
+      for (std::size_t i = 0; i < of_first.size(); ++i) {
+        of_second[i] = weight * (of_second[i] - of_first[i]);
+        of_first[i] *= weight;
+      }
+    };
+    means(first.rgba, second.rgba);
+    means(first.display, second.display);
+    return halves_error(first, second, environment);
+  }
+
   PictureSetup set_up(const Camera& camera, std::span<const Light> lights, const Environment& environment) {
     std::vector<Bounds> casters;
     for (const GpuMesh* mesh : drawn())
@@ -216,7 +238,7 @@ struct Renderer::State {
     PictureSetup picture = set_up_picture(fit_near_far(camera, seen), lights, environment, std::move(casters));
     picture.width = options.width;
     picture.height = options.height;
-    picture.passes = options.samples;
+    picture.passes = options.tolerance > 0 ? std::min(options.samples, kFirstPasses) : options.samples;
     picture.shadow_map_size = shadow_map_size(options);
     return picture;
   }
@@ -263,25 +285,54 @@ void Renderer::set_visible(MeshId mesh, bool visible) { state_->mesh(mesh).visib
 
 void Renderer::set_casts_shadow(MeshId mesh, bool casts) { state_->mesh(mesh).casts_shadow = casts; }
 
+void Renderer::set_seed(std::uint32_t seed) { state_->options.seed = seed; }
+
 Bounds Renderer::bounds() const { return state_->world_bounds(); }
 
-FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> lights,
-                                   const Environment& environment) {
+FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> lights, const Environment& environment,
+                                   const Shutter& shutter) {
   State& s = *state_;
   s.context.make_current();
-  s.upload_changes();
   if (environment.ground.visible) s.prepare_ground(environment.ground);
-  const PictureSetup picture = s.set_up(camera, lights, environment);
-  s.prepare_shadow_maps(picture.shadow_maps);
-  const std::vector<PassSample> samples = pass_samples(picture.passes, picture.lights.size(), s.options.seed);
-  for (int pass = 0; pass < picture.passes; ++pass)
-    s.draw_pass(picture, environment, samples[static_cast<std::size_t>(pass)], pass);
-  return s.targets.read(picture.passes);
+  PictureSetup picture;
+  const auto set_up = [&](const Camera& seen_by) {
+    s.upload_changes();
+    picture = s.set_up(seen_by, lights, environment);
+    s.prepare_shadow_maps(picture.shadow_maps);
+  };
+  if (!shutter) set_up(camera);
+  const std::vector<PassSample> samples = pass_samples(s.options.samples, lights.size(), s.options.seed);
+  const bool measured = s.options.tolerance > 0 && s.options.samples > 1;
+  s.report = {s.options.samples, {}};
+  FloatImage half;  // of the last doubling, a sum
+  int next_look = kFirstPasses / 2;
+  for (int pass = 0; pass < s.options.samples; ++pass) {
+    const PassSample& sample = samples[static_cast<std::size_t>(pass)];
+    if (shutter) set_up(shutter(sample.time));
+    // Each doubling adds passes that stand for smaller parts of the lights.
+    if (measured) picture.passes = std::min(std::max(kFirstPasses, 2 * next_look), s.options.samples);
+    s.draw_pass(picture, environment, sample, pass);
+    const int drawn = pass + 1;
+    if (!measured || drawn != next_look) continue;
+    next_look *= 2;
+    FloatImage sum = s.targets.read(1);
+    if (!half.rgba.empty()) {
+      s.report.samples = drawn;
+      s.report.error = s.error_of(half, sum, drawn, environment);
+      if (*s.report.error <= s.options.tolerance) break;
+      s.report.samples = s.options.samples;
+    }
+    half = std::move(sum);
+  }
+  return s.targets.read(1.0f / static_cast<float>(s.report.samples));
 }
 
-Image Renderer::render(const Camera& camera, std::span<const Light> lights, const Environment& environment) {
-  return develop(render_linear(camera, lights, environment), environment);
+Image Renderer::render(const Camera& camera, std::span<const Light> lights, const Environment& environment,
+                       const Shutter& shutter) {
+  return develop(render_linear(camera, lights, environment, shutter), environment);
 }
+
+const PictureReport& Renderer::last_picture() const { return state_->report; }
 
 const RenderOptions& Renderer::options() const { return state_->options; }
 

@@ -33,7 +33,7 @@ vec3 unpack_color(uint word) {
 Surface surface_here(uvec4 words, vec3 position) {
   Surface s;
   s.position = position;
-  s.view = normalize(pass.camera.xyz - position);
+  s.view = normalize(pass.camera.xyz - pass.picture.z * position);
   s.normal = unpack_direction(words.x);
   // Where an interpolated normal turns away from the viewer, as at silhouettes, it is seen edge-on.
   s.n_dot_v = max(dot(s.normal, s.view), 1e-3);
@@ -63,6 +63,9 @@ vec3 lit_by(Surface s, vec3 facet, LightData light, const int map) {
     distance2 = max(distance2, light.extra.y * light.extra.y);
     if (light.color.w > 0) falloff = light.color.w / distance2;
     widen *= inversesqrt(distance2);
+#ifdef RECTANGLES
+    falloff *= mix(1.0, max(-dot(to_light, light.facing.xyz), 0), light.facing.w);
+#endif
   }
   float n_dot_l = dot(s.normal, to_light);
   n_dot_l = max(n_dot_l, 0);

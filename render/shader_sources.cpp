@@ -87,6 +87,7 @@ std::string lighting_fragment_source(const LightingFeatures& features) {
   define(features.shadow_lights != 0, "SHADOWS");
   define(features.shadow_lights != 0 || features.sky_shadow, "SHADOW_MAPS");
   if (features.sky_shadow) source += fmt::format("#define SKY_SHADOW {}\n", std::popcount(features.shadow_lights));
+  define(features.rectangles, "RECTANGLES");
   define(features.sheen, "SHEEN");
   define(features.field, "FIELD");
   define(features.ground, "GROUND");

@@ -8,6 +8,7 @@ namespace softreel::render {
 struct LightingFeatures {
   int lights = 0;              ///< in the uniform block
   unsigned shadow_lights = 0;  ///< bit per light: it has a shadow map; the maps are numbered in the lights' order
+  bool rectangles = false;     ///< some light shines to one side only
   bool sky_shadow = false;     ///< ambient light has one, after the lights' maps
   bool sheen = false;
   bool field = false;    ///< some surface is coloured by values: a second result, in the picture's own colours
