@@ -13,6 +13,7 @@
 #include "app/output_check.h"
 #include "app/progress.h"
 #include "app/stability_map.h"
+#include "app/study_render.h"
 #include "app/study_apply.h"
 #include "app/study_plot.h"
 #include "app/study_report.h"
@@ -150,6 +151,7 @@ std::filesystem::path write_study(const std::filesystem::path& output, StudyRepo
 }  // namespace
 
 int run_study(const StudyArguments& a) {
+  if (a.render) return run_study_render(a);
   const Clock::time_point start = Clock::now();
   use_threads(a.threads);
   if (a.regions) return run_stability_regions(a);

@@ -12,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/output_check.h"
 #include "app/progress.h"
+#include "app/turntable_scene.h"
 #include "app/video.h"
 #include "assets/error.h"
 #include "assets/scene_colors.h"
@@ -38,6 +39,7 @@ assets::ImportedSurface load(const TurntableArguments& a) {
 }  // namespace
 
 int run_turntable(const TurntableArguments& a) {
+  if (std::filesystem::path(a.mesh).extension() == ".toml") return run_turntable_scene(a);
   use_threads(a.threads);
   if (!a.video.empty()) check_video(a.video);
   const std::filesystem::path output =
@@ -65,7 +67,7 @@ int run_turntable(const TurntableArguments& a) {
   options.height = a.size[1];
   options.samples = a.samples;
   render::Renderer renderer(options);
-  DrawnSurface drawn = drawn_surface(surface, static_cast<int>(points.size()), look, std::nullopt, true);
+  DrawnSurface drawn = drawn_surface({}, surface, static_cast<int>(points.size()), look, {}, true);
   const render::MeshId mesh = renderer.add_mesh(std::move(drawn.mesh), std::move(drawn.looks));
   renderer.set_positions(mesh, points);
   const glm::vec3 axis = bounds.centre();

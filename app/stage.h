@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/body_figure.h"
 #include "app/clip_cache.h"
 #include "app/drawn_field.h"
 #include "app/shapes.h"
@@ -22,6 +23,8 @@ bool needs_whole_clip(const assets::Scene& scene);
 struct ClipExtent {
   render::Bounds bounds;                 ///< of bodies and colliders with an end
   std::vector<FieldRange> field_ranges;  ///< as scene.fields
+  std::vector<std::shared_ptr<const BodyFigure>> figures;  ///< soft bodies, then cloths; null: shows none
+  std::vector<FieldRange> figure_ranges;                   ///< as `figures`
   std::vector<glm::vec3> points;         ///< corners of the boxes around each of them in each frame, for framing
 
   void add(const render::Bounds& box);
@@ -38,19 +41,29 @@ class Stage {
 
   /// The picture of frame `number`. `before`: the frame before it, where there is one; used when the shutter is open.
   render::Image draw(int number, const CachedFrame& frame, const CachedFrame* before);
+  /// The same before tone curve, background and colour bars, with everything standing still.
+  render::FloatImage draw_linear(const CachedFrame& frame);
+  /// The frame as a camera of one's own sees it.
+  render::Image draw_from(const CachedFrame& frame, const render::Camera& camera);
+  /// Depth, normals and ids of what the last picture shows.
+  render::Channels channels();
   const render::Renderer& renderer() const { return renderer_; }
 
  private:
-  void add_bodies(const Shapes& shapes);
+  void add_bodies(const Shapes& shapes, const ClipExtent& extent);
   void add_fields(const Shapes& shapes, const ClipExtent& extent);
   void add_colliders(const ClipExtent& extent);
   void place_lights(const ClipExtent& extent);
   void place_ground(const ClipExtent& extent);
   void move_to(const CachedFrame& frame);
+  render::Camera camera_now(const CachedFrame& frame) const;
+  void find_followed(const Shapes& shapes);
 
   struct DrawnBody {
     render::MeshId mesh;
     int first = 0, count = 0;  // vertices of the state
+    std::shared_ptr<const BodyFigure> figure = nullptr;
+    std::array<double, 2> range{0, 1};
   };
   struct DrawnNet {
     render::MeshId mesh;
@@ -77,8 +90,11 @@ class Stage {
   std::vector<DrawnCollider> colliders_;
   const assets::Collider* ground_plane_ = nullptr;  // a plane collider that is drawn as the ground
   render::Camera camera_;
+  int followed_first_ = 0, followed_count_ = 0;  // vertices of the state; 0: the camera follows nothing
+  glm::vec3 followed_start_{0};                  // their mean at t = 0
   std::vector<render::Light> lights_;
   render::Environment environment_;
+  render::Camera last_camera_;
 };
 
 }  // namespace softreel::app

@@ -181,6 +181,7 @@ void check_accuracy(KeyVisitor& v, const Scene& scene) {
 
 void check(KeyVisitor& v, Scene& scene) {
   check_names(v, scene);
+  check_pictures(v, scene);
   check_references(v, scene);
   check_static(v, scene);
   check_accuracy(v, scene);

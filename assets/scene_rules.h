@@ -16,6 +16,8 @@ void apply_quality(Render& render);
 /// Finds the bodies that loads and attachments speak of, too.
 void check(KeyVisitor& v, Scene& scene);
 void check_references(KeyVisitor& v, Scene& scene);
+/// What camera and pictures say of bodies.
+void check_pictures(KeyVisitor& v, const Scene& scene);
 void check(KeyVisitor& v, const Time& time);
 void check(KeyVisitor& v, const Solver& solver);
 void check(KeyVisitor& v, const Block& block);
@@ -32,8 +34,10 @@ void check(KeyVisitor& v, Collider& collider);
 void check(KeyVisitor& v, const Load& load);
 void check(KeyVisitor& v, const Reference& reference);
 void check(KeyVisitor& v, const Attach& attach);
-void check(KeyVisitor& v, const Camera& camera);
+void check(KeyVisitor& v, Camera& camera);
+void check(KeyVisitor& v, const DataView& data);
 void check(KeyVisitor& v, const Light& light);
+void check(KeyVisitor& v, const Background& background);
 void check(KeyVisitor& v, const Render& render);
 
 }  // namespace softreel::assets

@@ -1,9 +1,15 @@
 // Rules for camera, lights and the picture.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
 #include <Eigen/Geometry>
 
 #include "assets/scene_limits.h"
+#include "assets/scene_nearest.h"
 #include "assets/scene_rules.h"
 
 namespace softreel::assets {
@@ -12,6 +18,7 @@ void apply_quality(Render& render) {
   switch (render.quality) {
     case Quality::kDraft:
       render.samples = 4;
+      render.sky_shadow = false;  // a second map in each pass
       break;
     case Quality::kDefault:
       break;
@@ -21,7 +28,25 @@ void apply_quality(Render& render) {
   }
 }
 
-void check(KeyVisitor& v, const Camera& c) {
+void check(KeyVisitor& v, const DataView& data) {
+  only_for(v, data.colorbar, {"label"}, "is written over the colour bar, and colorbar is false");
+  if (data.range && !((*data.range)[0] < (*data.range)[1]))
+    v.problem("range", "found two values that do not rise, expected [lowest, highest]");
+}
+
+void check(KeyVisitor& v, Camera& c) {
+  if (c.view != View::kFree) {
+    only_for(v, !c.position.has_value(), {"view"}, "has no effect when position is given; keep one of them");
+    only_for(v, false, {"direction"}, "has no effect beside view; keep one of them");
+    constexpr std::array<std::array<double, 3>, 7> kDirections = {
+        {{0, 0, 1}, {0, 0, 1}, {0, 0, -1}, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}};
+    const auto& d = kDirections[static_cast<size_t>(c.view)];
+    c.direction = Vec3(d[0], d[1], d[2]);
+    if (c.view == View::kTop || c.view == View::kBottom) c.up = Vec3(0, 0, c.view == View::kTop ? -1 : 1);
+  }
+  for (size_t i = 1; i < c.keys.size(); ++i)
+    if (!(c.keys[i].t > c.keys[i - 1].t))
+      v.problem(fmt::format("keys.{}.t", i + 1), "is not later than that of the key frame before");
   nonzero(v, "direction", c.direction);
   nonzero(v, "up", c.up);
   only_for(v, !c.position, {"direction"}, "has no effect when position is given; keep one of them");
@@ -38,6 +63,24 @@ void check(KeyVisitor& v, const Camera& c) {
     v.problem("up", "is the direction in which the camera looks; the picture has no upright. Change up or position");
 }
 
+void check_pictures(KeyVisitor& v, const Scene& scene) {
+  for (size_t i = 0; i < scene.springs.size(); ++i)
+    if (scene.springs[i].data)
+      v.problem(fmt::format("springs.{}.data", i + 1), "is for soft bodies and cloths");
+  if (scene.camera.follow.empty()) return;
+  std::vector<std::string> names;
+  const auto collect = [&](const auto& bodies, const char* kind) {
+    for (size_t i = 0; i < bodies.size(); ++i)
+      names.push_back(bodies[i].name.empty() ? fmt::format("{}-{}", kind, i + 1) : bodies[i].name);
+  };
+  collect(scene.soft, "soft");
+  collect(scene.cloth, "cloth");
+  collect(scene.springs, "springs");
+  if (std::find(names.begin(), names.end(), scene.camera.follow) != names.end()) return;
+  v.problem("camera.follow", fmt::format("there is no body \"{}\"; there are: {}", scene.camera.follow,
+                                         names.empty() ? "none" : join_names(names, true)));
+}
+
 void check(KeyVisitor& v, const Light& light) {
   const bool area = light.kind == LightKind::kArea;
   nonzero(v, "direction", light.direction);
@@ -49,7 +92,13 @@ void check(KeyVisitor& v, const Light& light) {
   only_for(v, sun || !light.position, {"direction"}, "has no effect when position is given; keep one of them");
 }
 
+void check(KeyVisitor& v, const Background& background) {
+  if (background.sky && background.transparent)
+    v.problem("transparent", "is the opposite of sky = true; keep one of them");
+}
+
 void check(KeyVisitor& v, const Render& render) {
+  only_for(v, !render.sky_map.empty(), {"sky_turn", "background.sky"}, "is for a sky_map, and none is given");
   only_for(v, render.samples == 0, {"tolerance"}, "is for samples = \"auto\"");
   const double pixels = double(render.size[0]) * render.size[1];
   if (pixels > kMostPixels)

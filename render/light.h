@@ -14,10 +14,10 @@ enum class LightKind {
 /// or before a rectangle) has radiance `intensity * color`; 1 is the white of the picture at exposure 1.
 struct Light {
   LightKind kind = LightKind::kSphere;
-  glm::vec3 position{3, 5, 2};   ///< kSphere, kRectangle: centre, world [m]
-  float radius = 0.5f;           ///< kSphere: [m], >= 0; 0 gives hard shadows
-  float reference_distance = 0;  ///< where `intensity` holds [m], but for suns; light falls off with the distance
-                                 ///< squared. 0: no falloff, the same strength everywhere
+  glm::vec3 position{3, 5, 2};     ///< kSphere, kRectangle: centre, world [m]
+  float radius = 0.5f;             ///< kSphere: [m], >= 0; 0 gives hard shadows
+  float reference_distance = 0;    ///< where `intensity` holds [m], but for suns; light falls off with the distance
+                                   ///< squared. 0: no falloff, the same strength everywhere
   glm::vec3 direction{0, -1, 0};   ///< kSun, kRectangle: from the light into the scene, any length but zero
   float angular_diameter = 0.53f;  ///< kSun: [degrees]; the real sun has 0.53
   glm::vec2 size{1, 1};            ///< kRectangle: width (level) and height [m], >= 0

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render/panorama.h"
 #include "render/shadow_frustum.h"
 
 namespace softreel::render {
@@ -106,6 +107,25 @@ void place_sun(const PictureSetup& picture, const Light& light, const glm::vec2&
   place_parallel(picture, towards, part, map, setup);
 }
 
+struct SkyPart {
+  glm::vec3 towards;
+  glm::vec3 part;  // light on a white matte surface facing it, were all the sky's light like this
+  float weight;    // the same without colour, of a sky of strength 1
+};
+
+SkyPart sky_part(const Environment& environment, const glm::vec2& square) {
+  if (environment.panorama) {
+    const Panorama::Sample sample = environment.panorama->sample(square);
+    return {sample.towards, sample.part, 1};
+  }
+  // Evenly over the disc under the hemisphere: with the cosine about the vertical, so it is divided by that.
+  const glm::vec2 disc = disc_from_square(square);
+  const float height = std::sqrt(std::max(1 - glm::dot(disc, disc), 0.0f));
+  const glm::vec3 towards = glm::normalize(glm::vec3(disc.x, std::max(height, 0.02f), disc.y));
+  const float weight = 1 / std::max(towards.y, 0.1f);
+  return {towards, weight * environment.sky, weight};
+}
+
 }  // namespace
 
 PictureSetup set_up_picture(const Camera& camera, std::span<const Light> lights, const Environment& environment,
@@ -125,7 +145,7 @@ PictureSetup set_up_picture(const Camera& camera, std::span<const Light> lights,
   }
   if (picture.lights.size() > kMaxLights)
     throw std::invalid_argument(fmt::format("{} lights; at most {} can shine", picture.lights.size(), kMaxLights));
-  if (environment.sky_shadow && environment.sky != glm::vec3(0) && !picture.casters.empty())
+  if (environment.sky_shadow && (environment.panorama || environment.sky != glm::vec3(0)) && !picture.casters.empty())
     picture.sky_map = picture.shadow_maps++;
   return picture;
 }
@@ -144,6 +164,9 @@ PassSetup set_up_pass(const PictureSetup& picture, const Environment& environmen
                               static_cast<float>(pass % 64));
   uniforms.sky = glm::vec4(environment.sky, 0);
   uniforms.ground_light = glm::vec4(environment.ground_light, 0);
+  if (environment.panorama)
+    for (std::size_t k = 0; k < uniforms.harmonics.size(); ++k)
+      uniforms.harmonics[k] = glm::vec4(environment.panorama->irradiance()[k], 0);
   const Ground& ground = environment.ground;
   uniforms.ground = glm::vec4(ground.centre.x, ground.centre.z, ground.fade_begin,
                               std::max(ground.fade_end, ground.fade_begin * 1.001f));
@@ -155,14 +178,12 @@ PassSetup set_up_pass(const PictureSetup& picture, const Environment& environmen
     place(picture, light, sample.lights[i], picture.shadow_map[i], uniforms.lights[i], setup);
   }
   if (picture.sky_map >= 0) {
-    // Evenly over the disc under the hemisphere: with the cosine about the vertical.
-    const glm::vec2 disc = disc_from_square(sample.sky);
-    const float height = std::sqrt(std::max(1 - glm::dot(disc, disc), 0.0f));
-    const glm::vec3 towards = glm::normalize(glm::vec3(disc.x, std::max(height, 0.02f), disc.y));
+    const SkyPart sky = sky_part(environment, sample.sky);
+    uniforms.sky_part = glm::vec4(sky.part, 0);
     // 1/N of the unit disc under the hemisphere, seen as a cone.
     const float part = std::min(1 / std::sqrt(static_cast<float>(picture.passes)), 0.7f);
-    uniforms.sky_direction = glm::vec4(towards, 0);
-    place_parallel(picture, towards, part / std::sqrt(1 - part * part), picture.sky_map, setup);
+    uniforms.sky_direction = glm::vec4(sky.towards, sky.weight);
+    place_parallel(picture, sky.towards, part / std::sqrt(1 - part * part), picture.sky_map, setup);
   }
   return setup;
 }

@@ -33,6 +33,8 @@ struct PassUniforms {
   glm::vec4 ground_light{0};   ///< rgb
   glm::vec4 ground{0};         ///< x, z of its centre, begin and end of the fade [m]
   glm::vec4 sky_direction{0};  ///< xyz: towards the part of the sky of this pass
+  glm::vec4 sky_part{0};       ///< rgb: light of that part on a white matte surface facing it
+  std::array<glm::vec4, 9> harmonics{};  ///< rgb: Panorama::irradiance
   std::array<LightUniforms, kMaxLights> lights{};
   std::array<ShadowUniforms, kMaxShadowMaps> shadows{};
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <stdexcept>
 
@@ -17,6 +16,7 @@
 #include "render/programs.h"
 #include "render/sampling.h"
 #include "render/shadow_maps.h"
+#include "render/surface_pass.h"
 
 namespace softreel::render {
 
@@ -49,7 +49,8 @@ struct Renderer::State {
         targets(gl, asked.width, asked.height),
         programs(gl),
         textures(gl),
-        color_maps(gl) {
+        color_maps(gl),
+        panorama(gl) {
     no_vertices = make_vertex_array(gl);
     pass_buffer = make_buffer(gl, sizeof(PassUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
   }
@@ -61,8 +62,9 @@ struct Renderer::State {
   PictureReport report;
   PictureTargets targets;
   Programs programs;
-  ColorTextures textures;
+  Textures textures;
   ColorMapTexture color_maps;
+  PanoramaTexture panorama;
   GlBuffer pass_buffer;
   GlVertexArray no_vertices;
   std::optional<ShadowMaps> shadow_maps;
@@ -85,13 +87,29 @@ struct Renderer::State {
     return std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_field(); });
   }
 
+  bool has_emission() const {
+    return std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) {
+      return std::any_of(mesh->looks().begin(), mesh->looks().end(), [](const Look& look) { return look.emits(); });
+    });
+  }
+
   void upload_changes() {
     for (const auto& mesh : meshes) {
       if (!mesh->visible) continue;
       mesh->upload(counters);
       for (const Look& look : mesh->looks())
-        if (look.texture && mesh->has_uv()) textures.add(*look.texture, counters);
+        if (mesh->has_uv()) add_textures(look);
     }
+  }
+
+  void add_textures(const Look& look) {
+    const auto add = [&](const std::shared_ptr<const Image>& image, TextureKind kind) {
+      if (image) textures.add(*image, kind, counters);
+    };
+    add(look.texture, TextureKind::kColor);
+    add(look.normal_texture, TextureKind::kNumbers);
+    add(look.roughness_texture, TextureKind::kNumbers);
+    add(look.emission_texture, TextureKind::kColor);
   }
 
   void prepare_ground(const Ground& plan) {
@@ -102,6 +120,7 @@ struct Renderer::State {
       ground->upload(counters);
     }
     const float reach = std::max(plan.fade_end, plan.fade_begin);
+    if (plan.look.pattern != Pattern::kNone) ground->set_rest_of_square(reach);
     ground->world_from_mesh = glm::translate(glm::mat4(1), glm::vec3(plan.centre.x, plan.height, plan.centre.z)) *
                               glm::scale(glm::mat4(1), glm::vec3(reach, 1, reach));
   }
@@ -123,6 +142,10 @@ struct Renderer::State {
     features.sky_shadow = picture.sky_map >= 0;
     features.ground = environment.ground.visible;
     features.field = has_fields();
+    features.emission = has_emission();
+    features.panorama = environment.panorama != nullptr;
+    features.panorama_behind = features.panorama && environment.panorama_behind && !environment.transparent;
+    features.shadow_catcher = environment.ground.visible && environment.ground.catches_shadow;
     for (const GpuMesh* mesh : meshes_drawn)
       for (const Look& look : mesh->looks()) features.sheen = features.sheen || look.sheen > 0;
     // What few passes cannot average they must filter.
@@ -131,50 +154,10 @@ struct Renderer::State {
     return features;
   }
 
-  void draw_part(const GpuMesh& mesh, const MeshPart& part, const Look& look, float roughness) {
-    const bool texture = look.texture != nullptr && mesh.has_uv() && roughness > 0;
-    const bool field = look.color_map.has_value();
-    const GLuint program = programs.geometry(field     ? GeometryKind::kField
-                                             : texture ? GeometryKind::kTexture
-                                                       : GeometryKind::kPlain);
-    gl.UseProgram(program);
-    if (texture && !field) textures.bind(*look.texture);
-    const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(mesh.world_from_mesh)));
-    const glm::vec4 front(look.color, look.metallic);
-    const glm::vec4 back(look.back_color.value_or(look.color), roughness);
-    gl.ProgramUniformMatrix4fv(program, kWorldFromMeshUniform, 1, GL_FALSE, glm::value_ptr(mesh.world_from_mesh));
-    gl.ProgramUniformMatrix3fv(program, kNormalMatrixUniform, 1, GL_FALSE, glm::value_ptr(normal_matrix));
-    if (field) {
-      const glm::vec4 map(static_cast<float>(*look.color_map), look.shading, 0, 0);
-      gl.ProgramUniform4fv(program, kColorMapUniform, 1, glm::value_ptr(map));
-    } else {
-      gl.ProgramUniform4fv(program, kFrontColorUniform, 1, glm::value_ptr(front));
-      gl.ProgramUniform4fv(program, kBackColorUniform, 1, glm::value_ptr(back));
-      gl.ProgramUniform1f(program, kSheenUniform, look.sheen);
-    }
-    if (look.two_sided)
-      gl.Disable(GL_CULL_FACE);
-    else
-      gl.Enable(GL_CULL_FACE);
-    // The picture is drawn upside down, which turns every triangle round; a mirroring transform does it once more.
-    const bool mirrored = glm::determinant(glm::mat3(mesh.world_from_mesh)) < 0;
-    gl.FrontFace(mirrored ? GL_CCW : GL_CW);
-    mesh.draw(part.first_triangle, part.triangle_count);
-    ++counters.draw_calls;
-  }
-
   void draw_surfaces(const std::vector<const GpuMesh*>& meshes_drawn, const Environment& environment) {
-    // The least roughness that is not taken for the ground's mark.
-    constexpr float kSmoothest = 1.0f / 255;
-    for (const GpuMesh* mesh : meshes_drawn)
-      for (const MeshPart& part : mesh->parts()) {
-        const Look& look = mesh->look(part.look);
-        draw_part(*mesh, part, look, std::clamp(look.roughness, kSmoothest, 1.0f));
-      }
-    if (!environment.ground.visible) return;
-    Look matte;
-    matte.color = environment.ground.look.color;
-    draw_part(*ground, ground->parts()[0], matte, 0);
+    SurfacePass pass(gl, programs, textures, counters, has_emission());
+    for (const GpuMesh* mesh : meshes_drawn) pass.draw_body(*mesh);
+    if (environment.ground.visible) pass.draw_ground(*ground, environment.ground.look);
   }
 
   void draw_shadow_maps(const PassSetup& setup, const std::vector<const GpuMesh*>& meshes_drawn) {
@@ -193,6 +176,7 @@ struct Renderer::State {
 
     gl.NamedBufferSubData(*pass_buffer, 0, sizeof(PassUniforms), &setup.uniforms);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, kPassBinding, *pass_buffer);
+    if (has_emission()) targets.add_emission();
     targets.begin_geometry();
     draw_surfaces(meshes_drawn, environment);
 
@@ -200,6 +184,7 @@ struct Renderer::State {
       targets.add_display();
       color_maps.bind();
     }
+    if (environment.panorama) panorama.bind(*environment.panorama, counters);
     targets.begin_lighting(pass, picture.passes, counters);
     gl.UseProgram(programs.lighting(features_of(picture, meshes_drawn, environment)));
     gl.BindVertexArray(*no_vertices);
@@ -212,6 +197,25 @@ struct Renderer::State {
     Bounds bounds;
     for (const GpuMesh* mesh : drawn()) bounds.add(mesh->world_bounds());
     return bounds;
+  }
+
+  Channels channels(const PictureSetup& picture, const Environment& environment) {
+    const PassSetup setup = set_up_pass(picture, environment, pass_samples(1, 0, 0).front(), 0);
+    gl.NamedBufferSubData(*pass_buffer, 0, sizeof(PassUniforms), &setup.uniforms);
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, kPassBinding, *pass_buffer);
+    targets.begin_geometry();
+    SurfacePass pass(gl, programs, textures, counters, has_emission());
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      pass.note_id(static_cast<std::uint16_t>(std::min<std::size_t>(i + 2, 65535)));
+      if (meshes[i]->visible && meshes[i]->has_positions()) pass.draw_body(*meshes[i]);
+    }
+    pass.note_id(1);
+    if (environment.ground.visible) pass.draw_ground(*ground, environment.ground.look);
+    std::vector<glm::uvec4> words;
+    std::vector<float> depth;
+    targets.read_geometry(words, depth);
+    return channels_from_words(words, depth, options.width, options.height, setup.uniforms.clip_from_world,
+                               picture.camera);
   }
 
   /// `half`: sum of the first half of the passes, `sum`: of all `passes`.
@@ -300,6 +304,9 @@ FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> 
     picture = s.set_up(seen_by, lights, environment);
     s.prepare_shadow_maps(picture.shadow_maps);
   };
+  std::vector<Light> all_lights(lights.begin(), lights.end());
+  if (environment.panorama && environment.panorama->sun()) all_lights.push_back(*environment.panorama->sun());
+  lights = all_lights;
   if (!shutter) set_up(camera);
   const std::vector<PassSample> samples = pass_samples(s.options.samples, lights.size(), s.options.seed);
   const bool measured = s.options.tolerance > 0 && s.options.samples > 1;
@@ -330,6 +337,14 @@ FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> 
 Image Renderer::render(const Camera& camera, std::span<const Light> lights, const Environment& environment,
                        const Shutter& shutter) {
   return develop(render_linear(camera, lights, environment, shutter), environment);
+}
+
+Channels Renderer::render_channels(const Camera& camera, const Environment& environment) {
+  State& s = *state_;
+  s.context.make_current();
+  s.upload_changes();
+  if (environment.ground.visible) s.prepare_ground(environment.ground);
+  return s.channels(s.set_up(camera, {}, environment), environment);
 }
 
 const PictureReport& Renderer::last_picture() const { return state_->report; }

@@ -12,6 +12,7 @@
 
 #include "render/bounds.h"
 #include "render/camera.h"
+#include "render/channels.h"
 #include "render/counters.h"
 #include "render/environment.h"
 #include "render/film.h"
@@ -85,6 +86,8 @@ class Renderer {
   FloatImage render_linear(const Camera& camera, std::span<const Light> lights, const Environment& environment,
                            const Shutter& shutter = {});
   const PictureReport& last_picture() const;
+  /// What is seen in the middle of each pixel, as things stand now.
+  Channels render_channels(const Camera& camera, const Environment& environment);
 
   const RenderOptions& options() const;
   const RenderCounters& counters() const;

@@ -15,6 +15,8 @@ layout(std140, binding = 0) uniform PassBlock {
   vec4 ground_light;
   vec4 ground;
   vec4 sky_direction;
+  vec4 sky_part;
+  vec4 harmonics[9];
   LightData lights[MAX_LIGHTS];
   ShadowData shadows[MAX_SHADOWS];
 } pass;

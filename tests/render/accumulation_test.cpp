@@ -53,8 +53,8 @@ double covered(const FloatImage& film) {
 }  // namespace
 
 TEST_CASE("what lies at the focus is as sharp through a lens as through a pinhole, what lies elsewhere is not") {
-  // A plate at distance 4 covers 2 of 2 x 4 tan(20 deg) = 2.91 m: the lens of 0.4 m, focused at 8 m, blurs its edge over
-  // 0.4 (8 - 4) / 8 = 0.2 m = 6.6 px, of which 10 % to 90 % of the disc's area lie within 69 % of its diameter.
+  // A plate at distance 4 covers 2 of 2 x 4 tan(20 deg) = 2.91 m: the lens of 0.4 m, focused at 8 m, blurs its edge
+  // over 0.4 (8 - 4) / 8 = 0.2 m = 6.6 px, of which 10 % to 90 % of the disc's area lie within 69 % of its diameter.
   Renderer renderer(options_of(64));
   renderer.add_shape(make_box({2, 0.001f, 2}), Look{});
   Camera camera = looking_down(4);
@@ -95,7 +95,8 @@ TEST_CASE("an open shutter smears what moves along its way and keeps its cover")
     renderer.set_transform(box, moved);
     return camera;
   };
-  const FloatImage film = renderer.render_linear(camera, {}, nothing(), [&](float time) { return at(time * 0.4f - 0.2f); });
+  const FloatImage film =
+      renderer.render_linear(camera, {}, nothing(), [&](float time) { return at(time * 0.4f - 0.2f); });
   CHECK(covered(film) == doctest::Approx(24 * 24).epsilon(0.01));
   // The ramp of cover is 0.4 m long: a fifth of it away from each end lie 0.24 m = 11.5 px at 20 % to 80 %.
   int ramp = 0;
