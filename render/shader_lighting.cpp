@@ -155,7 +155,7 @@ void main() {
 #endif
   result = covered ? vec4(radiance * alpha, alpha) : vec4(0);
 #ifdef PANORAMA_BEHIND
-  vec3 behind = panorama_at(normalize(at.xyz / at.w - pass.camera.xyz), 0);
+  vec3 behind = panorama_at(normalize(pass.picture.z * at.xyz / at.w - pass.camera.xyz), 0);
   result = vec4(result.rgb + behind * (1 - result.a), 1);
 #endif
 #ifdef FIELD

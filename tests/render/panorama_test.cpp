@@ -109,7 +109,8 @@ TEST_CASE("a broken or bent HDR file is answered with an error or mended, never 
   std::string bright = good;
   for (std::size_t i = bright.size() - 1; i + 128 > bright.size(); i -= 4) bright[i] = static_cast<char>(0xff);
   const HdrImage capped = load_hdr(write("bright.hdr", bright));
-  for (const glm::vec3& c : Panorama(capped, 1, 0).irradiance()) CHECK(std::isfinite(c.x + c.y + c.z));
+  const Panorama panorama(capped, 1, 0);
+  for (const glm::vec3& c : panorama.irradiance()) CHECK(std::isfinite(c.x + c.y + c.z));
   CHECK_THROWS_AS(load_hdr(write("cut.hdr", good.substr(0, 40))), RenderError);
   CHECK_THROWS_AS(load_hdr(write("none.hdr", "no picture")), RenderError);
   CHECK_THROWS_AS(load_hdr(folder / "missing.hdr"), RenderError);
