@@ -18,7 +18,7 @@ void render_in_jobs(const ClipArguments& a, const std::vector<int>& frames) {
   std::vector<std::unique_ptr<PipeTo>> running;
   for (std::size_t job = 0; job < jobs; ++job) {
     std::string mine;
-    for (std::size_t i = job; i < frames.size(); i += jobs) mine += (mine.empty() ? "" : ",") + std::to_string(frames[i]);
+    for (std::size_t i = job; i < frames.size(); i += jobs) mine += fmt::format("{}{}", mine.empty() ? "" : ",", frames[i]);
     std::vector<std::string> arguments = {"/proc/self/exe", "render", a.scene, "--frames", mine, "--threads", "1", "--quiet"};
     if (!a.output.empty()) arguments.insert(arguments.end(), {"-o", a.output});
     for (const std::string& setting : a.overrides) arguments.insert(arguments.end(), {"--set", setting});
