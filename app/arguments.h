@@ -26,10 +26,10 @@ struct ClipArguments : CommonArguments {
 };
 
 struct TurntableArguments : CommonArguments {
-  std::string mesh;    ///< or a scene
+  std::string mesh;                    ///< or a scene
   std::string frame = "last";          ///< of a scene: that stands on the turntable
   std::vector<std::string> overrides;  ///< of a scene: key=value
-  std::string output;  ///< folder; empty: out/NAME-turntable
+  std::string output;                  ///< folder; empty: out/NAME-turntable
   std::string video;
   std::vector<int> size = {1280, 720};
   int count = 36;

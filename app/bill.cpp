@@ -92,16 +92,20 @@ std::vector<BillItem> bill_of(const Scene& s) {
            count(s.springs, [&](const SpringBody& b) { return has(b.look); }) +
            count(s.colliders, [&](const Collider& c) { return has(c.look); });
   };
-  add("shadows of the sky", s.render.sky_shadow && s.render.sky > 0, "bodies hide the sky", "sky_shadow is false, or sky is 0");
+  add("shadows of the sky", s.render.sky_shadow && s.render.sky > 0, "bodies hide the sky",
+      "sky_shadow is false, or sky is 0");
   add("sky picture", !s.render.sky_map.empty(), "sky_map lights the scene", "no sky_map is given");
   add("sheen", look_has([](const Look& l) { return l.sheen > 0; }) > 0, "a look has sheen", "no look has sheen");
-  add("emission", look_has([](const Look& l) { return l.emission || !l.emission_texture.empty(); }) > 0, "a look gives off light",
-      "no look gives off light (mesh files may bring some)");
-  add("patterns", look_has([](const Look& l) { return l.pattern != Pattern::kNone; }) > 0 || s.render.ground.pattern != Pattern::kNone,
+  add("emission", look_has([](const Look& l) { return l.emission || !l.emission_texture.empty(); }) > 0,
+      "a look gives off light", "no look gives off light (mesh files may bring some)");
+  add("patterns",
+      look_has([](const Look& l) { return l.pattern != Pattern::kNone; }) > 0 ||
+          s.render.ground.pattern != Pattern::kNone,
       "a look or the ground has one", "no look has a pattern");
-  add("edges of triangles", look_has([](const Look& l) { return l.wire.has_value(); }) > 0, "a look has wire", "no look has wire");
-  add("textures", count(s.assets, [](const AssetUse& a) { return !a.physics; }) > 0, "a look names a texture",
-      "no look names a texture (mesh files may bring their own)");
+  add("edges of triangles", look_has([](const Look& l) { return l.wire.has_value(); }) > 0, "a look has wire",
+      "no look has wire");
+  add("textures", count(s.assets, [](const AssetUse& a) { return !a.physics && a.key != "render.sky_map"; }) > 0,
+      "a look names a texture", "no look names a texture (mesh files may bring their own)");
   return bill;
 }
 

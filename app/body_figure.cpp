@@ -28,7 +28,8 @@ BodyFigure::BodyFigure(const assets::Cloth& cloth, const ClothShape& shape, int 
     : show_(cloth.data->show), first_(first), count_(static_cast<int>(shape.rest.vertices.size())), corners_(3) {
   if (show_ == assets::Quantity::kSpeed) return;
   const double thickness = cloth.material.thickness;
-  for (const sim::Triangle& t : shape.rest.triangles) add_element(shape.rest.vertices, {t[0], t[1], t[2], -1}, thickness);
+  for (const sim::Triangle& t : shape.rest.triangles)
+    add_element(shape.rest.vertices, {t[0], t[1], t[2], -1}, thickness);
   if (show_ != assets::Quantity::kStress) return;
   sim::TriangleMesh apart;
   for (const sim::Triangle& t : shape.rest.triangles) {
@@ -42,7 +43,8 @@ BodyFigure::BodyFigure(const assets::Cloth& cloth, const ClothShape& shape, int 
 void BodyFigure::add_element(const std::vector<sim::Vec3>& rest, std::array<int, 4> vertices, double thickness) {
   Element element{vertices, Eigen::Matrix3d::Identity(), 0};
   for (int k = 1; k < corners_; ++k)
-    element.rest.col(k - 1) = rest[static_cast<size_t>(vertices[static_cast<size_t>(k)])] - rest[static_cast<size_t>(vertices[0])];
+    element.rest.col(k - 1) =
+        rest[static_cast<size_t>(vertices[static_cast<size_t>(k)])] - rest[static_cast<size_t>(vertices[0])];
   if (corners_ == 3) {
     const Eigen::Vector3d normal = element.rest.col(0).cross(element.rest.col(1));
     element.size = 0.5 * normal.norm() * thickness;
@@ -56,7 +58,8 @@ void BodyFigure::add_element(const std::vector<sim::Vec3>& rest, std::array<int,
 Eigen::Matrix3d BodyFigure::edges(const sim::State& state, const Element& element) const {
   const auto at = [&](int vertex) -> Eigen::Vector3d { return state.x.segment<3>(3 * (first_ + vertex)); };
   Eigen::Matrix3d d = Eigen::Matrix3d::Identity();
-  for (int k = 1; k < corners_; ++k) d.col(k - 1) = at(element.vertices[static_cast<size_t>(k)]) - at(element.vertices[0]);
+  for (int k = 1; k < corners_; ++k)
+    d.col(k - 1) = at(element.vertices[static_cast<size_t>(k)]) - at(element.vertices[0]);
   if (corners_ == 3) d.col(2) = d.col(0).cross(d.col(1)).normalized();
   return d;
 }

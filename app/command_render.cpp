@@ -16,8 +16,8 @@
 #include "app/stage.h"
 #include "app/video.h"
 #include "assets/error.h"
-#include "render/frame_writer.h"
 #include "render/channels.h"
+#include "render/frame_writer.h"
 #include "render/png.h"
 #include "render/png16.h"
 

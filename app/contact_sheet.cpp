@@ -23,7 +23,8 @@ std::array<float, 256> linear_table() {
   return table;
 }
 
-/// Mean of the light over the pixels that fall into (x, y) of a picture of that size; over white where it is transparent.
+/// Mean of the light over the pixels that fall into (x, y) of a picture of that size; over white where it is
+/// transparent.
 glm::vec3 mean_light(const render::Image& image, int x, int y, int width, int height) {
   static const std::array<float, 256> kLinear = linear_table();
   const int x0 = x * image.width / width, x1 = std::max((x + 1) * image.width / width, x0 + 1);
@@ -49,7 +50,8 @@ void set(render::Image& sheet, int x, int y, const glm::vec3& light) {
 std::vector<SheetFrame> sheet_frames(const std::vector<SheetFrame>& frames, std::size_t most) {
   if (frames.size() <= most) return frames;
   std::vector<SheetFrame> chosen;
-  for (std::size_t i = 0; i < most; ++i) chosen.push_back(frames[i * (frames.size() - 1) / std::max<std::size_t>(most - 1, 1)]);
+  for (std::size_t i = 0; i < most; ++i)
+    chosen.push_back(frames[i * (frames.size() - 1) / std::max<std::size_t>(most - 1, 1)]);
   return chosen;
 }
 
@@ -58,7 +60,8 @@ render::Image contact_sheet(const std::vector<SheetFrame>& frames) {
   const int columns = std::min(count, count <= 6 ? 3 : 4), rows = (count + columns - 1) / columns;
   const render::Image first = render::load_image(frames.front().file);
   const int width = std::min(kThumbWidth, first.width);
-  const int height = std::max(1, static_cast<int>(std::lround(static_cast<double>(width) * first.height / first.width)));
+  const int height =
+      std::max(1, static_cast<int>(std::lround(static_cast<double>(width) * first.height / first.width)));
   render::Image sheet = render::Image::blank(kGap + columns * (width + kGap), kGap + rows * (height + kCaption + kGap));
   std::fill(sheet.rgba.begin(), sheet.rgba.end(), std::uint8_t{255});
   for (int i = 0; i < count; ++i) {

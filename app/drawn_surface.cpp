@@ -80,8 +80,8 @@ render::Look plain_look(const assets::Scene& scene, const assets::Look& look, bo
   result.roughness_texture = picture_of(scene, look.roughness_texture);
   result.emission_texture = picture_of(scene, look.emission_texture);
   if (look.emission || result.emission_texture)
-    result.emission = (look.emission ? to_linear(*look.emission) : glm::vec3(1)) *
-                      static_cast<float>(look.emission_strength);
+    result.emission =
+        (look.emission ? to_linear(*look.emission) : glm::vec3(1)) * static_cast<float>(look.emission_strength);
   result.pattern = static_cast<render::Pattern>(look.pattern);
   result.pattern_color = to_linear(look.pattern_color);
   result.pattern_size = static_cast<float>(look.pattern_size);

@@ -14,8 +14,8 @@ struct DrawnSurface {
   std::vector<render::Look> looks;  ///< one for each part
 };
 
-/// `position_count`: how many positions the physics hands over per frame; `two_sided`: cloth. The `look` of the scene wins
-/// over what the file brings; `transform`: with which the surface was placed.
+/// `position_count`: how many positions the physics hands over per frame; `two_sided`: cloth. The `look` of the scene
+/// wins over what the file brings; `transform`: with which the surface was placed.
 DrawnSurface drawn_surface(const assets::Scene& scene, const assets::ImportedSurface& surface, int position_count,
                            const assets::Look& look, const assets::Transform& transform, bool two_sided);
 

@@ -11,8 +11,8 @@ namespace softreel::app {
 render::Camera camera_of(const assets::Scene& scene, const ClipExtent& extent,
                          const std::vector<render::ColorBar>& color_bars = {});
 
-/// The camera at the time `t` [s]: along the keys, round the target. `still`: as camera_of gives it; `moved`: how far the
-/// body that it follows has come [m].
+/// The camera at the time `t` [s]: along the keys, round the target. `still`: as camera_of gives it; `moved`: how far
+/// the body that it follows has come [m].
 render::Camera camera_at(const assets::Camera& plan, const render::Camera& still, double t, const glm::vec3& moved);
 
 }  // namespace softreel::app

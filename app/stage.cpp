@@ -98,7 +98,8 @@ void add_figures(const assets::Scene& scene, const Shapes& shapes, const sim::St
     int first = 0;
     const auto make = [&](const auto& bodies, const auto& of) {
       for (size_t i = 0; i < bodies.size(); ++i) {
-        extent.figures.push_back(bodies[i].data ? std::make_shared<const BodyFigure>(bodies[i], of[i], first) : nullptr);
+        extent.figures.push_back(bodies[i].data ? std::make_shared<const BodyFigure>(bodies[i], of[i], first)
+                                                : nullptr);
         first += static_cast<int>(of[i].rest.vertices.size());
       }
     };
@@ -201,8 +202,7 @@ void Stage::add_bodies(const Shapes& shapes, const ClipExtent& extent) {
   for_each_body(scene_, shapes, [&](const assets::Body& body, const BodySurface& drawn, int first, bool cloth) {
     const size_t n = number++;
     if (!body.visible) return;
-    DrawnSurface d =
-        drawn_surface(scene_, drawn.surface, drawn.position_count, body.look, body.transform, cloth);
+    DrawnSurface d = drawn_surface(scene_, drawn.surface, drawn.position_count, body.look, body.transform, cloth);
     const bool figure = n < extent.figures.size() && extent.figures[n] != nullptr;
     if (figure) {
       const std::size_t map = render::color_map_index(assets::name_of(body.data->colormap));
@@ -211,7 +211,8 @@ void Stage::add_bodies(const Shapes& shapes, const ClipExtent& extent) {
         look.shading = static_cast<float>(body.data->shading);
       }
     }
-    DrawnBody b{renderer_.add_mesh(std::move(d.mesh), std::move(d.looks)), first, drawn.position_count, nullptr, {0, 1}};
+    DrawnBody b{
+        renderer_.add_mesh(std::move(d.mesh), std::move(d.looks)), first, drawn.position_count, nullptr, {0, 1}};
     if (figure) {
       b.figure = extent.figures[n];
       b.range = color_range(body.data->range, body.data->colormap, extent.figure_ranges[n]);
@@ -249,8 +250,8 @@ void Stage::add_colliders(const ClipExtent& extent) {
     const bool plane = c.shape == assets::ColliderShape::kPlane;
     render::Shape shape = shape_of(c, extent);
     for (const std::uint32_t position : shape.mesh.position_of) shape.mesh.rest.push_back(shape.positions[position]);
-    DrawnCollider d{renderer_.add_shape(std::move(shape), plain_look(scene_, c.look, plane)),
-                    make_collider(c), !c.motion.empty()};
+    DrawnCollider d{renderer_.add_shape(std::move(shape), plain_look(scene_, c.look, plane)), make_collider(c),
+                    !c.motion.empty()};
     renderer_.set_transform(d.mesh, to_glm(d.collider.pose(0)));
     if (plane) renderer_.set_casts_shadow(d.mesh, false);
     colliders_.push_back(std::move(d));
@@ -314,7 +315,8 @@ void Stage::place_ground(const ClipExtent& extent) {
   ground.look.roughness = static_cast<float>(r.ground.roughness);
   ground.look.pattern = static_cast<render::Pattern>(r.ground.pattern);
   ground.look.pattern_color = to_linear(r.ground.pattern_color);
-  ground.look.pattern_size = static_cast<float>(r.ground.pattern_size.value_or(round_size(0.2 * extent.bounds.radius())));
+  ground.look.pattern_size =
+      static_cast<float>(r.ground.pattern_size.value_or(round_size(0.2 * extent.bounds.radius())));
   if (ground_plane_) {
     ground.height = static_cast<float>(make_collider(*ground_plane_).world_from_shape.translation().y());
     if (ground_plane_->look.color) ground.look.color = to_linear(*ground_plane_->look.color);
@@ -375,7 +377,8 @@ void Stage::move_to(const CachedFrame& frame) {
   const sim::State& state = frame.state;
   for (const DrawnBody& body : bodies_) {
     renderer_.set_positions(body.mesh, points_of(state.x, body.first, body.count));
-    if (body.figure) renderer_.set_values(body.mesh, map_places(body.figure->values(state).head(body.count), body.range));
+    if (body.figure)
+      renderer_.set_values(body.mesh, map_places(body.figure->values(state).head(body.count), body.range));
   }
   for (const DrawnNet& net : nets_) renderer_.set_positions(net.mesh, net.shape->positions(state.x, net.first));
   for (const DrawnCollider& c : colliders_)

@@ -21,11 +21,11 @@ bool needs_whole_clip(const assets::Scene& scene);
 
 /// What the visible things cover over the frames that were added.
 struct ClipExtent {
-  render::Bounds bounds;                 ///< of bodies and colliders with an end
-  std::vector<FieldRange> field_ranges;  ///< as scene.fields
+  render::Bounds bounds;                                   ///< of bodies and colliders with an end
+  std::vector<FieldRange> field_ranges;                    ///< as scene.fields
   std::vector<std::shared_ptr<const BodyFigure>> figures;  ///< soft bodies, then cloths; null: shows none
   std::vector<FieldRange> figure_ranges;                   ///< as `figures`
-  std::vector<glm::vec3> points;         ///< corners of the boxes around each of them in each frame, for framing
+  std::vector<glm::vec3> points;  ///< corners of the boxes around each of them in each frame, for framing
 
   void add(const render::Bounds& box);
 };

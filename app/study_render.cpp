@@ -69,8 +69,10 @@ int run_study_render(const StudyArguments& a) {
   clip.overrides = a.overrides;
   clip.quiet = a.quiet;
   clip.threads = a.threads;
-  clip.output = a.output.empty() ? (std::filesystem::path("out") / (std::filesystem::path(a.scene).stem().string() + "-study")).string()
-                                 : a.output;
+  clip.output =
+      a.output.empty()
+          ? (std::filesystem::path("out") / (std::filesystem::path(a.scene).stem().string() + "-study")).string()
+          : a.output;
   ClipPlan plan = plan_clip(clip);
   // The middle of the clip: something has happened, and it shows.
   const int number = (plan.scene.time.frames() + 1) / 2;
@@ -80,7 +82,8 @@ int run_study_render(const StudyArguments& a) {
   std::optional<CachedFrame> frame;
   for (int f = 1; f <= last; ++f) {
     std::optional<CachedFrame> data = plan.cache.read(f);
-    if (!data) throw assets::UserError(assets::ErrorKind::kInput, plan.cache.folder().string(), "a cached frame went missing");
+    if (!data)
+      throw assets::UserError(assets::ErrorKind::kInput, plan.cache.folder().string(), "a cached frame went missing");
     add_frame(plan.scene, shapes, *data, extent);
     if (f == number) frame = std::move(data);
   }
@@ -108,7 +111,8 @@ int run_study_render(const StudyArguments& a) {
   const std::filesystem::path file = plan.output / "pictures.csv";
   assets::write_file_atomically(file, csv);
   const bool drawn = draw_plot(plot(rows), plan.output);
-  if (!drawn) say(a.quiet, "note: there is no program gnuplot in PATH (Debian: apt install gnuplot-nox), so there is no plot");
+  if (!drawn)
+    say(a.quiet, "note: there is no program gnuplot in PATH (Debian: apt install gnuplot-nox), so there is no plot");
   if (!a.quiet) fmt::print("{}\n", (drawn ? plan.output / "pictures.svg" : file).string());
   return kDone;
 }

@@ -37,22 +37,24 @@ int run_turntable_scene(const TurntableArguments& a) {
   clip.overrides.push_back(fmt::format("render.samples={}", a.samples));
   clip.quiet = a.quiet;
   clip.threads = a.threads;
-  clip.output = a.output.empty()
-                    ? (std::filesystem::path("out") / (std::filesystem::path(a.mesh).stem().string() + "-turntable")).string()
-                    : a.output;
+  clip.output =
+      a.output.empty()
+          ? (std::filesystem::path("out") / (std::filesystem::path(a.mesh).stem().string() + "-turntable")).string()
+          : a.output;
   if (!a.video.empty()) check_video(a.video);
   ClipPlan plan = plan_clip(clip);
   const int number = frame_number(a.frame, plan.scene.time.frames());
   const Shapes shapes = simulate_plan(plan, number, a.quiet);
   const std::optional<CachedFrame> frame = plan.cache.read(number);
-  if (!frame) throw assets::UserError(assets::ErrorKind::kInput, plan.cache.folder().string(), "a cached frame went missing");
+  if (!frame)
+    throw assets::UserError(assets::ErrorKind::kInput, plan.cache.folder().string(), "a cached frame went missing");
   ClipExtent extent;
   add_frame(plan.scene, shapes, *frame, extent);
   Stage stage(plan.scene, shapes, extent);
   const glm::vec3 axis = extent.bounds.empty() ? glm::vec3(0) : extent.bounds.centre();
   const auto fov = static_cast<float>(plan.scene.camera.fov);
-  const render::Camera first = render::frame_turntable(
-      extent.points, axis, fov, static_cast<float>(a.size[0]) / static_cast<float>(a.size[1]));
+  const render::Camera first =
+      render::frame_turntable(extent.points, axis, fov, static_cast<float>(a.size[0]) / static_cast<float>(a.size[1]));
   render::FrameWriter writer(1);
   std::vector<std::filesystem::path> files;
   {

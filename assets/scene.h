@@ -122,14 +122,14 @@ struct Look {
   std::string normal_texture;       ///< picture files in the same way; of glTF's kinds
   std::string roughness_texture;    ///< green: roughness, blue: metallic
   std::string emission_texture;
-  std::optional<Color> emission;    ///< given off; absent: the mesh file's own, or with a texture white
-  double emission_strength = 1;     ///< [-]
-  double sheen = 0;                 ///< [-] bright rim of fibres
+  std::optional<Color> emission;  ///< given off; absent: the mesh file's own, or with a texture white
+  double emission_strength = 1;   ///< [-]
+  double sheen = 0;               ///< [-] bright rim of fibres
   Pattern pattern = Pattern::kNone;
   Color pattern_color = {0.92, 0.92, 0.92};
-  double pattern_size = 0.1;        ///< of a field [m]
-  std::optional<Color> wire;        ///< of the triangles' edges; absent: not drawn
-  double crease = 60;               ///< [deg] edges sharper than this stay hard
+  double pattern_size = 0.1;  ///< of a field [m]
+  std::optional<Color> wire;  ///< of the triangles' edges; absent: not drawn
+  double crease = 60;         ///< [deg] edges sharper than this stay hard
 };
 
 struct Block {
@@ -413,7 +413,7 @@ struct Render {
   std::string sky_map;  ///< picture of all directions (.hdr), as written; empty: the built-in sky
   double sky_turn = 0;  ///< of the picture about the vertical [deg]
   bool depth = false, normal = false, id = false;  ///< side channels, 16-bit PNG files beside the frames
-  bool sky_shadow = true;  ///< bodies hide the sky from one another and from the ground
+  bool sky_shadow = true;                          ///< bodies hide the sky from one another and from the ground
 };
 
 /// A file that the scene names, and where it does so.

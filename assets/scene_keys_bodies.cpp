@@ -79,8 +79,9 @@ void walk(KeyVisitor& v, Look& l) {
   v.key({"emission_strength", kPicture, "", at_least(0, 1e4), "times emission; 1: as bright as white in the light"},
         &l.emission_strength);
   v.key({"sheen", kPicture, "", kUnit, "soft bright rim of fibres: velvet, wool"}, &l.sheen);
-  v.key({"pattern", kPicture, "", {}, "drawn where the body is at rest, so that it sticks; takes the place of a texture"},
-        choice(l.pattern));
+  v.key(
+      {"pattern", kPicture, "", {}, "drawn where the body is at rest, so that it sticks; takes the place of a texture"},
+      choice(l.pattern));
   v.key({"pattern_color", kPicture, "", kUnit, "of every other field; the rest have color"}, &l.pattern_color);
   v.key({"pattern_size", kPicture, "m", kLength, "of a field"}, &l.pattern_size);
   v.key({"wire", kPicture, "", kUnit, "colour of the triangles' edges; left out, they are not drawn"}, &l.wire);

@@ -13,7 +13,8 @@ void walk(KeyVisitor& v, DataView& d) {
   v.key({"colormap", kPicture, "", {}, "coolwarm has its middle in white, the others go from dark to bright"},
         choice(d.colormap));
   v.key({"range", kPicture, "", {}, "values of the first and last colour; left out, what the clip covers"}, &d.range);
-  v.key({"shading", kPicture, "", kUnit, "0: the very colours of the bar; 1: darkened by light and shadow"}, &d.shading);
+  v.key({"shading", kPicture, "", kUnit, "0: the very colours of the bar; 1: darkened by light and shadow"},
+        &d.shading);
   v.key({"colorbar", kPicture, "", {}, "whether the scale is drawn beside"}, &d.colorbar);
   v.key({"label", kPicture, "", {}, "over the colour bar; left out, quantity and unit"}, &d.label);
   if (v.reading()) check(v, d);
@@ -29,7 +30,8 @@ void walk(KeyVisitor& v, CameraKey& k) {
 void walk(KeyVisitor& v, Camera& c) {
   v.key({"position", kPicture, "m", kPlace, "left out, the whole clip is framed"}, &c.position);
   v.key({"target", kPicture, "m", kPlace, "what it looks at; left out, the middle of what is to be seen"}, &c.target);
-  v.key({"view", kPicture, "", {}, "standard direction, when position is left out; front looks along -z"}, choice(c.view));
+  v.key({"view", kPicture, "", {}, "standard direction, when position is left out; front looks along -z"},
+        choice(c.view));
   v.key({"direction", kPicture, "", {}, "from the target to the camera, when position is left out"}, &c.direction);
   v.key({"up", kPicture, "", {}, "direction that is up in the picture"}, &c.up);
   v.key({"projection", kPicture, "", {}, "orthographic: nothing gets smaller with distance"}, choice(c.projection));
@@ -73,7 +75,8 @@ void walk(KeyVisitor& v, Background& b) {
 }
 
 void walk(KeyVisitor& v, Ground& g) {
-  v.key({"show", kPicture, "", {}, "auto: unless a plane collider is visible; shadow: only the shadows on it"}, choice(g.show));
+  v.key({"show", kPicture, "", {}, "auto: unless a plane collider is visible; shadow: only the shadows on it"},
+        choice(g.show));
   v.key({"height", kPicture, "m", kPlace, "left out, under the lowest point of the clip"}, &g.height);
   v.key({"color", kPicture, "", kUnit, "of the ground"}, &g.color);
   v.key({"roughness", kPicture, "", kUnit, "0 mirror to 1 matt"}, &g.roughness);
@@ -84,7 +87,8 @@ void walk(KeyVisitor& v, Ground& g) {
 
 void walk(KeyVisitor& v, Render& r) {
   v.key({"size", kPicture, "pixels", kPixels, "width and height"}, &r.size);
-  v.key({"quality", kPicture, "", {}, "presets: draft 4 samples and no sky_shadow, default 16, final auto"}, choice(r.quality));
+  v.key({"quality", kPicture, "", {}, "presets: draft 4 samples and no sky_shadow, default 16, final auto"},
+        choice(r.quality));
   if (v.reading()) apply_quality(r);
   v.key({"samples", kPicture, "", kSamples, "passes averaged into one frame; auto: as many as tolerance needs"},
         AutoRef{&r.samples});
@@ -109,7 +113,8 @@ void walk(KeyVisitor& v, Render& r) {
   v.key({"sky_turn", kPicture, "deg", kAngle, "turns sky_map about the vertical"}, &r.sky_turn);
   v.key({"depth", kPicture, "", {}, "also writes depth_0001.png, ...: 16-bit, millimetres along the view"}, &r.depth);
   v.key({"normal", kPicture, "", {}, "also writes normal_0001.png, ...: 16-bit, world normals from -1..1"}, &r.normal);
-  v.key({"id", kPicture, "", {}, "also writes id_0001.png, ...: 16-bit, 0 nothing, 1 the ground, bodies from 2"}, &r.id);
+  v.key({"id", kPicture, "", {}, "also writes id_0001.png, ...: 16-bit, 0 nothing, 1 the ground, bodies from 2"},
+        &r.id);
   v.key({"sky_shadow", kPicture, "", {}, "bodies keep the sky's light from one another and from the ground"},
         &r.sky_shadow);
   if (v.reading()) check(v, r);

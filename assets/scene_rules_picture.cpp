@@ -65,8 +65,7 @@ void check(KeyVisitor& v, Camera& c) {
 
 void check_pictures(KeyVisitor& v, const Scene& scene) {
   for (size_t i = 0; i < scene.springs.size(); ++i)
-    if (scene.springs[i].data)
-      v.problem(fmt::format("springs.{}.data", i + 1), "is for soft bodies and cloths");
+    if (scene.springs[i].data) v.problem(fmt::format("springs.{}.data", i + 1), "is for soft bodies and cloths");
   if (scene.camera.follow.empty()) return;
   std::vector<std::string> names;
   const auto collect = [&](const auto& bodies, const char* kind) {

@@ -37,7 +37,8 @@ Channels channels_from_words(std::span<const glm::uvec4> words, std::span<const 
         channels.id.push_back(0);
         continue;
       }
-      const glm::dvec4 clip((x + 0.5) * 2 / width - 1, (y + 0.5) * 2 / height - 1, 2.0 * static_cast<double>(depth[i]) - 1, 1);
+      const glm::dvec4 clip((x + 0.5) * 2 / width - 1, (y + 0.5) * 2 / height - 1,
+                            2.0 * static_cast<double>(depth[i]) - 1, 1);
       const glm::dvec4 at = world_from_clip * clip;
       channels.depth.push_back(
           static_cast<float>(glm::dot(glm::dvec3(at) / at.w - glm::dvec3(camera.position), forward)));

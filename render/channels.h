@@ -10,9 +10,9 @@ namespace softreel::render {
 /// Of the surface in the middle of each pixel, rows from top to bottom, width * height each.
 struct Channels {
   int width = 0, height = 0;
-  std::vector<float> depth;        ///< along the view from the camera [m]; infinite where nothing is
-  std::vector<glm::vec3> normal;   ///< towards the viewer, world, unit length; 0 where nothing is
-  std::vector<std::uint16_t> id;   ///< 0 nothing, 1 the ground, 2 and more: meshes in the order of add_mesh
+  std::vector<float> depth;       ///< along the view from the camera [m]; infinite where nothing is
+  std::vector<glm::vec3> normal;  ///< towards the viewer, world, unit length; 0 where nothing is
+  std::vector<std::uint16_t> id;  ///< 0 nothing, 1 the ground, 2 and more: meshes in the order of add_mesh
 };
 
 struct Camera;

@@ -112,8 +112,7 @@ Panorama::Panorama(const HdrImage& image, float strength, float turn) {
       for (std::size_t k = 0; k < 9; ++k) sums[k] += light * static_cast<double>(basis[k]);
     }
   // The cosine lobe's own coefficients over pi: 1, 2/3, 1/4.
-  for (std::size_t k = 0; k < 9; ++k)
-    irradiance_[k] = glm::vec3(sums[k] * (k == 0 ? 1.0 : k < 4 ? 2.0 / 3 : 0.25));
+  for (std::size_t k = 0; k < 9; ++k) irradiance_[k] = glm::vec3(sums[k] * (k == 0 ? 1.0 : k < 4 ? 2.0 / 3 : 0.25));
 
   // Rays are few: they look at means of about the size that each of them stands for.
   int w = width, h = height;
@@ -161,8 +160,7 @@ Panorama::Sample Panorama::sample(const glm::vec2& square) const {
       width_ - 1e-6);
   const glm::vec3 color = grid_[static_cast<std::size_t>(row * width_ + static_cast<int>(x))];
   const double total = row_cdf_.back();
-  return {direction_at(x / width_, y / height_),
-          color / (luminance(color) + 1e-9f) * static_cast<float>(total / kPi)};
+  return {direction_at(x / width_, y / height_), color / (luminance(color) + 1e-9f) * static_cast<float>(total / kPi)};
 }
 
 void Panorama::take_out_sun(std::vector<glm::vec3>& pixels, int width, int height) {
@@ -173,7 +171,8 @@ void Panorama::take_out_sun(std::vector<glm::vec3>& pixels, int width, int heigh
               direction_at((x + 0.5) / width, (y + 0.5) / height));
   };
   double total = 0;
-  for_each([&](const glm::vec3& p, double angle, const glm::vec3&) { total += static_cast<double>(luminance(p)) * angle; });
+  for_each(
+      [&](const glm::vec3& p, double angle, const glm::vec3&) { total += static_cast<double>(luminance(p)) * angle; });
   // Brighter than this many times the mean is no sky and no wall.
   const float limit = static_cast<float>(30 * total / (4 * kPi));
   if (!(limit > 0)) return;

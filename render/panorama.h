@@ -12,7 +12,7 @@ namespace softreel::render {
 
 /// Linear radiance of all directions, rows from straight up to straight down; the middle column is towards -z.
 struct HdrImage {
-  int width = 0, height = 0;     ///< [px]
+  int width = 0, height = 0;      ///< [px]
   std::vector<glm::vec3> pixels;  ///< width * height, finite, >= 0
   std::size_t mended = 0;         ///< pixels of the file that were not finite or negative; taken as black
 };
@@ -39,16 +39,16 @@ class Panorama {
   };
   const std::vector<Level>& levels() const { return levels_; }
 
-  /// A direction chosen with a density along the luminance, and radiance / (pi density) there: what a white matte surface
-  /// facing it would get if all light came from such directions. `square`: in the unit square.
+  /// A direction chosen with a density along the luminance, and radiance / (pi density) there: what a white matte
+  /// surface facing it would get if all light came from such directions. `square`: in the unit square.
   struct Sample {
     glm::vec3 towards{0, 1, 0};
     glm::vec3 part{0};
   };
   Sample sample(const glm::vec2& square) const;
 
-  /// A bright spot (the sun of an outdoor picture) is taken out of the map and shines as a light of its own: smooth maps
-  /// cannot hold it, and it throws the shadows.
+  /// A bright spot (the sun of an outdoor picture) is taken out of the map and shines as a light of its own: smooth
+  /// maps cannot hold it, and it throws the shadows.
   const std::optional<Light>& sun() const { return sun_; }
 
  private:

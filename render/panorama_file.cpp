@@ -36,10 +36,11 @@ HdrImage from_bytes(const std::filesystem::path& path) {
 HdrImage load_hdr(const std::filesystem::path& path) {
   if (stbi_is_hdr(path.c_str()) == 0) return from_bytes(path);
   int width = 0, height = 0, channels = 0;
-  const std::unique_ptr<float, decltype(&stbi_image_free)> data(
-      stbi_loadf(path.c_str(), &width, &height, &channels, 3), &stbi_image_free);
+  const std::unique_ptr<float, decltype(&stbi_image_free)> data(stbi_loadf(path.c_str(), &width, &height, &channels, 3),
+                                                                &stbi_image_free);
   if (!data)
-    throw RenderError(RenderErrorKind::kInput, "cannot use " + path.string() + " as a picture: " + stbi_failure_reason());
+    throw RenderError(RenderErrorKind::kInput,
+                      "cannot use " + path.string() + " as a picture: " + stbi_failure_reason());
   HdrImage hdr{width, height, {}, 0};
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   hdr.pixels.reserve(count);

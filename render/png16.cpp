@@ -60,7 +60,8 @@ Bytes compressed(const Bytes& data) {
 void write_png16(const std::filesystem::path& path, int width, int height, int channels,
                  std::span<const std::uint16_t> samples, const PngText& text) {
   if (width < 1 || height < 1 || (channels != 1 && channels != 3) ||
-      samples.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels))
+      samples.size() !=
+          static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels))
     throw std::invalid_argument("a 16-bit picture whose samples do not fit its size");
   Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   Bytes header;

@@ -30,7 +30,7 @@ struct GeometryFeatures {
   bool pattern = false;
   bool emission = false;  ///< the target has a second layer for it
   bool emission_texture = false;
-  bool id = false;                ///< notes the body's number in place of the facet
+  bool id = false;    ///< notes the body's number in place of the facet
   bool wire = false;  ///< edges: lines, which have no plane
   auto operator<=>(const GeometryFeatures&) const = default;
 };

@@ -8,8 +8,8 @@
 
 namespace softreel::render {
 
-/// What a look asks the geometry program for. `emission`: some look of the picture gives off light, so all programs write
-/// that layer.
+/// What a look asks the geometry program for. `emission`: some look of the picture gives off light, so all programs
+/// write that layer.
 GeometryFeatures geometry_features(const Look& look, const GpuMesh& mesh, bool emission);
 
 class SurfacePass {

@@ -19,9 +19,8 @@ struct Box {
   Rgb light;
 };
 
-constexpr std::array<Box, 3> kBoxes = {{{215, 48, 70, 38, {7.5, 6.9, 6.1}},
-                                        {125, 25, 34, 52, {2.2, 2.6, 3.2}},
-                                        {0, 30, 90, 12, {4.0, 4.0, 4.2}}}};
+constexpr std::array<Box, 3> kBoxes = {
+    {{215, 48, 70, 38, {7.5, 6.9, 6.1}}, {125, 25, 34, 52, {2.2, 2.6, 3.2}}, {0, 30, 90, 12, {4.0, 4.0, 4.2}}}};
 
 /// 1 inside, 0 outside, with a soft rim of 4 degrees.
 double cover(const Box& box, double longitude, double latitude) {
@@ -43,8 +42,8 @@ void add_rgbe(std::string& out, const Rgb& c) {
 
 void write_studio(const std::filesystem::path& file) {
   constexpr int kWidth = 128, kHeight = 64;
-  std::string out = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(kHeight) + " +X " +
-                    std::to_string(kWidth) + "\n";
+  std::string out =
+      "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(kHeight) + " +X " + std::to_string(kWidth) + "\n";
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
       const double longitude = 360 * ((x + 0.5) / kWidth - 0.5), latitude = 90 - 180 * (y + 0.5) / kHeight;

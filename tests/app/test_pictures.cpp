@@ -1,5 +1,5 @@
-// What a scene may ask of its pictures, seen from outside: blur, side channels, data, patterns, backgrounds, sheets; and
-// scenes whose light or camera makes little sense.
+// What a scene may ask of its pictures, seen from outside: blur, side channels, data, patterns, backgrounds, sheets;
+// and scenes whose light or camera makes little sense.
 #include <cmath>
 
 #include "render/image_io.h"
@@ -11,7 +11,8 @@ namespace {
 
 /// A block that is thrown to the right, seen from in front; two frames.
 std::string thrown(const std::string& more = "", const std::string& look = "") {
-  return "[time]\nduration = 0.2\nfps = 10\nsubsteps = 1\n[[soft]]\nname = \"block\"\nblock = { size = [0.4, 0.4, 0.4], "
+  return "[time]\nduration = 0.2\nfps = 10\nsubsteps = 1\n[[soft]]\nname = \"block\"\nblock = { size = [0.4, 0.4, "
+         "0.4], "
          "cells = [2, 2, 2] }\nvelocity = [4, 0, 0]\n" +
          look +
          "[camera]\nposition = [0.2, 0, 3]\ntarget = [0.2, 0, 0]\n[[light]]\nkind = \"sun\"\n[render]\nsize = [64, "
@@ -65,8 +66,8 @@ TEST_CASE("The shutter smears what moves, leaves the first frame alone, and is n
 TEST_CASE("samples = auto reports samples and error of each frame and meets its tolerance") {
   const test::TempFolder folder;
   folder.write("clip.toml", thrown());
-  const auto stats = test::stats_of({"render", (folder / "clip.toml").string(), "-o", (folder / "out").string(), "--set",
-                                     "render.samples=auto", "--set", "render.tolerance=1"},
+  const auto stats = test::stats_of({"render", (folder / "clip.toml").string(), "-o", (folder / "out").string(),
+                                     "--set", "render.samples=auto", "--set", "render.tolerance=1"},
                                     folder);
   REQUIRE(stats["picture"]["samples"].size() == 2);
   for (const auto& error : stats["picture"]["error_levels"]) CHECK(error.get<double>() <= 1);
@@ -89,7 +90,8 @@ TEST_CASE("Side channels hold distance, normal and number of what is seen") {
 TEST_CASE("A speed colours a body with the very colours of its bar, and the range is the clip's") {
   const test::TempFolder folder;
   // Thrown without gravity the block moves at 4 m/s everywhere, in the middle between 0 and 8.
-  const std::string scene = "gravity = [0, 0, 0]\n" + thrown("", "data = { show = \"speed\", range = [0, 8], shading = 0, colorbar = false }\n");
+  const std::string scene = "gravity = [0, 0, 0]\n" +
+                            thrown("", "data = { show = \"speed\", range = [0, 8], shading = 0, colorbar = false }\n");
   const render::Image image = frame(render(folder, "clip", scene));
   const std::uint8_t* p = image.pixel(28 + 8, 24);
   // viridis at 0.5: #21918c
@@ -100,14 +102,17 @@ TEST_CASE("A speed colours a body with the very colours of its bar, and the rang
 
 TEST_CASE("A pattern sticks to the body, wire shows its triangles, and both leave the simulation alone") {
   const test::TempFolder folder;
-  const std::string plain = "look = { color = \"#204080\" }\n",
-                    checked = "look = { color = \"#204080\", pattern = \"checker\", pattern_color = \"#f0f0f0\", pattern_size = 0.1 }\n",
-                    wired = "look = { color = \"#204080\", wire = \"#ffffff\" }\n";
+  const std::string
+      plain = "look = { color = \"#204080\" }\n",
+      checked =
+          "look = { color = \"#204080\", pattern = \"checker\", pattern_color = \"#f0f0f0\", pattern_size = 0.1 }\n",
+      wired = "look = { color = \"#204080\", wire = \"#ffffff\" }\n";
   const auto out = render(folder, "clip", thrown("", plain), {"--frames", "1"});
   const render::Image before = frame(out, "frame_0001.png");
   for (const std::string& look : {checked, wired}) {
     folder.write("clip.toml", thrown("", look));
-    const auto stats = test::stats_of({"render", (folder / "clip.toml").string(), "-o", out.string(), "--frames", "1"}, folder);
+    const auto stats =
+        test::stats_of({"render", (folder / "clip.toml").string(), "-o", out.string(), "--frames", "1"}, folder);
     CHECK(stats["frames_simulated"] == 0);
     const render::Image after = frame(out, "frame_0001.png");
     int brighter = 0;
@@ -123,7 +128,8 @@ TEST_CASE("A transparent background lays over any other as if it had been drawn 
   scene.replace(scene.find("ground = { show = \"off\" }\n"), 26, ground);
   const std::string grey = "background = { top = \"#808080\", bottom = \"#808080\" }\n";
   const render::Image over = frame(render(folder, "grey", scene + grey), "frame_0001.png");
-  const render::Image clear = frame(render(folder, "clear", scene + "background = { transparent = true }\n"), "frame_0001.png");
+  const render::Image clear =
+      frame(render(folder, "clear", scene + "background = { transparent = true }\n"), "frame_0001.png");
   int shadowed = 0;
   for (std::size_t i = 0; i < over.rgba.size(); i += 4) {
     const int alpha = clear.rgba[i + 3];
@@ -142,8 +148,9 @@ TEST_CASE("A contact sheet holds the frames with their times, and a turntable ta
   CHECK(sheet.width == 8 + 2 * (64 + 8));
   CHECK(sheet.height == 8 + 48 + 20 + 8);
   CHECK(std::equal(sheet.pixel(8, 8), sheet.pixel(8, 8) + 3, frame(out, "frame_0001.png").pixel(0, 0)));
-  const test::RunResult turned = test::run({"turntable", (folder / "clip.toml").string(), "-o", (folder / "spin").string(),
-                                            "--count", "2", "--size", "48", "32", "--samples", "1", "--frame", "1"});
+  const test::RunResult turned =
+      test::run({"turntable", (folder / "clip.toml").string(), "-o", (folder / "spin").string(), "--count", "2",
+                 "--size", "48", "32", "--samples", "1", "--frame", "1"});
   INFO(turned.err);
   CHECK(turned.code == 0);
   CHECK(render::load_image(folder / "spin" / "frame_0002.png").width == 48);
@@ -161,7 +168,8 @@ TEST_CASE("The camera goes along its keys, round its target and with a body") {
     return frame(render(folder, name, text));
   };
   // Two keys that both say what the camera says: nothing changes.
-  CHECK(with("same", "keys = [{ t = 0, position = [0.2, 0, 3] }, { t = 1, position = [0.2, 0, 3] }]\n").rgba == still.rgba);
+  CHECK(with("same", "keys = [{ t = 0, position = [0.2, 0, 3] }, { t = 1, position = [0.2, 0, 3] }]\n").rgba ==
+        still.rgba);
   CHECK(with("keyed", "keys = [{ t = 0 }, { t = 0.1, position = [0.2, 1, 3] }]\n").rgba != still.rgba);
   CHECK(with("orbit", "orbit = 90\n").rgba != still.rgba);
   // Followed, the block stays where it was in frame 1 but for its fall.
@@ -173,7 +181,9 @@ TEST_CASE("The camera goes along its keys, round its target and with a body") {
 
 TEST_CASE("Scenes without light, without bodies, with the camera or the light inside a body come out as pictures") {
   const test::TempFolder folder;
-  render(folder, "dark", "light = []\n[[cloth]]\ngrid = { size = [1, 1], cells = [2, 2] }\n[time]\nduration = 0.03\n[render]\nsize = [32, 24]\nsky = 0\n");
+  render(folder, "dark",
+         "light = []\n[[cloth]]\ngrid = { size = [1, 1], cells = [2, 2] }\n[time]\nduration = 0.03\n[render]\nsize = "
+         "[32, 24]\nsky = 0\n");
   render(folder, "empty", "[time]\nduration = 0.03\n[[collider]]\nshape = \"plane\"\n[render]\nsize = [32, 24]\n");
   std::string inside = thrown();
   inside.replace(inside.find("position = [0.2, 0, 3]"), 22, "position = [0.0, 0, 0.05]");

@@ -22,8 +22,8 @@ HdrImage even(const glm::vec3& color, int width = 64) {
 glm::vec3 irradiance(const Panorama& p, const glm::vec3& n) {
   const auto& c = p.irradiance();
   return 0.282095f * c[0] + 0.488603f * (n.y * c[1] + n.z * c[2] + n.x * c[3]) +
-         1.092548f * (n.x * n.y * c[4] + n.y * n.z * c[5] + n.x * n.z * c[7]) +
-         0.315392f * (3 * n.z * n.z - 1) * c[6] + 0.546274f * (n.x * n.x - n.y * n.y) * c[8];
+         1.092548f * (n.x * n.y * c[4] + n.y * n.z * c[5] + n.x * n.z * c[7]) + 0.315392f * (3 * n.z * n.z - 1) * c[6] +
+         0.546274f * (n.x * n.x - n.y * n.y) * c[8];
 }
 
 }  // namespace
