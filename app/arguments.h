@@ -20,12 +20,16 @@ struct ClipArguments : CommonArguments {
   std::string video;                   ///< render only
   std::string stats;                   ///< JSON file
   std::string export_format;           ///< simulate only: ply, vtu, pc2
+  int jobs = 1;                        ///< render only: processes
+  bool sheet = false;                  ///< render only: a contact sheet
   bool force = false;                  ///< simulate what is bound to fail, too
 };
 
 struct TurntableArguments : CommonArguments {
-  std::string mesh;
-  std::string output;  ///< folder; empty: out/NAME-turntable
+  std::string mesh;                    ///< or a scene
+  std::string frame = "last";          ///< of a scene: that stands on the turntable
+  std::vector<std::string> overrides;  ///< of a scene: key=value
+  std::string output;                  ///< folder; empty: out/NAME-turntable
   std::string video;
   std::vector<int> size = {1280, 720};
   int count = 36;
@@ -81,6 +85,7 @@ struct StudyArguments : CommonArguments {
   bool stability = false;  ///< a map over two keys instead: which settings hold
   std::string x, y;        ///< of the map: key=range
   std::string cells = "20x20";
+  bool render = false;   ///< pictures instead: error against the time they take
   bool regions = false;  ///< the integrators' stability regions instead; no scene
 };
 

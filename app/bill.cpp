@@ -90,9 +90,32 @@ std::vector<BillItem> bill_of(const Scene& s) {
       "time.accuracy is given: coarser runs, to compare with", "no time.accuracy is given");
   add("shadow maps", count(s.lights, [](const Light& l) { return l.shadow; }) > 0, "a light casts shadows",
       "no light casts shadows");
-  add("accumulation buffer", s.render.samples > 1, fmt::format("samples = {}", s.render.samples), "samples = 1");
-  add("textures", count(s.assets, [](const AssetUse& a) { return !a.physics; }) > 0, "a look names a texture",
-      "no look names a texture (mesh files may bring their own)");
+  add("accumulation buffer", s.render.samples != 1,
+      s.render.samples == 0 ? std::string("samples = auto") : fmt::format("samples = {}", s.render.samples),
+      "samples = 1");
+  add("motion blur", s.render.shutter > 0, fmt::format("shutter = {:.4g}", s.render.shutter), "shutter = 0");
+  add("depth of field", s.camera.aperture > 0, fmt::format("aperture = {:.4g} m", s.camera.aperture), "aperture = 0");
+  add("estimate of the error of pictures", s.render.samples == 0, "samples = auto", "samples is a number");
+  const auto look_has = [&](auto has) {
+    return count(s.soft, [&](const SoftBody& b) { return has(b.look); }) +
+           count(s.cloth, [&](const Cloth& c) { return has(c.look); }) +
+           count(s.springs, [&](const SpringBody& b) { return has(b.look); }) +
+           count(s.colliders, [&](const Collider& c) { return has(c.look); });
+  };
+  add("shadows of the sky", s.render.sky_shadow && s.render.sky > 0, "bodies hide the sky",
+      "sky_shadow is false, or sky is 0");
+  add("sky picture", !s.render.sky_map.empty(), "sky_map lights the scene", "no sky_map is given");
+  add("sheen", look_has([](const Look& l) { return l.sheen > 0; }) > 0, "a look has sheen", "no look has sheen");
+  add("emission", look_has([](const Look& l) { return l.emission || !l.emission_texture.empty(); }) > 0,
+      "a look gives off light", "no look gives off light (mesh files may bring some)");
+  add("patterns",
+      look_has([](const Look& l) { return l.pattern != Pattern::kNone; }) > 0 ||
+          s.render.ground.pattern != Pattern::kNone,
+      "a look or the ground has one", "no look has a pattern");
+  add("edges of triangles", look_has([](const Look& l) { return l.wire.has_value(); }) > 0, "a look has wire",
+      "no look has wire");
+  add("textures", count(s.assets, [](const AssetUse& a) { return !a.physics && a.key != "render.sky_map"; }) > 0,
+      "a look names a texture", "no look names a texture (mesh files may bring their own)");
   return bill;
 }
 

@@ -76,6 +76,7 @@ void add_study(CLI::App& command, StudyArguments& a) {
       ->type_name("KEY=RANGE");
   command.add_option("--y", a.y, "of the map: soft.block.material.young=1e2..1e9")->needs(map)->type_name("KEY=RANGE");
   command.add_option("--cells", a.cells, "of the map")->needs(map)->capture_default_str();
+  command.add_flag("--render", a.render, "instead: error of pictures with 1 to 256 samples, and their time");
   command.add_flag("--regions", a.regions, "instead: stability regions of all integrators; needs no scene");
   add_common(command, a);
 }
@@ -142,6 +143,9 @@ int run_command_line(int argc, char** argv) {
   auto* command = app.add_subcommand("render", "simulate and render a scene; what is up to date is not done again");
   add_clip(*command, render);
   command->add_option("--video", render.video, "also write a video (.mp4, .mov, .mkv) through ffmpeg");
+  command->add_option("--jobs", render.jobs, "render in so many processes with one thread each; the same bits")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--sheet", render.sheet, "also write sheet.png: evenly spaced frames and their times");
   command->callback([&] { run = [&] { return run_render(render); }; });
 
   ClipArguments simulate;
@@ -153,8 +157,14 @@ int run_command_line(int argc, char** argv) {
   command->callback([&] { run = [&] { return run_simulate(simulate); }; });
 
   TurntableArguments turntable;
-  command = app.add_subcommand("turntable", "pictures of a mesh, once around");
-  command->add_option("mesh", turntable.mesh, "surface or tetrahedral mesh")->required();
+  command = app.add_subcommand("turntable", "pictures of a mesh or of a scene's frame, once around");
+  command->add_option("mesh", turntable.mesh, "surface or tetrahedral mesh, or a scene (.toml)")->required();
+  command->add_option("--frame", turntable.frame, "of a scene: frame that is shown (a number, or last)")
+      ->capture_default_str();
+  command->add_option("--set", turntable.overrides, "override a key of the scene")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
   command->add_option("-o,--output", turntable.output, "folder for the frames (default: out/NAME-turntable)");
   command->add_option("--count", turntable.count, "pictures in one turn")
       ->check(CLI::Range(1, 100000))

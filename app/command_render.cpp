@@ -6,16 +6,20 @@
 
 #include "app/arguments.h"
 #include "app/clip_run.h"
+#include "app/contact_sheet.h"
 #include "app/exit_code.h"
 #include "app/frame_range.h"
 #include "app/hashes.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/render_jobs.h"
 #include "app/stage.h"
 #include "app/video.h"
 #include "assets/error.h"
+#include "render/channels.h"
 #include "render/frame_writer.h"
 #include "render/png.h"
+#include "render/png16.h"
 
 namespace softreel::app {
 namespace {
@@ -54,11 +58,32 @@ CachedFrame must_read(const ClipCache& cache, int frame) {
   return std::move(*data);
 }
 
-void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
+/// Side channels that the scene asks for, beside the frame.
+void write_channels(const ClipPlan& plan, Stage& stage, int frame, const render::PngText& text) {
+  const assets::Render& r = plan.scene.render;
+  if (!r.depth && !r.normal && !r.id) return;
+  const render::Channels channels = stage.channels();
+  const auto file = [&](const char* name) { return plan.output / fmt::format("{}_{:04}.png", name, frame); };
+  const auto write = [&](const char* name, int count, const std::vector<std::uint16_t>& samples) {
+    render::write_png16(file(name), channels.width, channels.height, count, samples, text);
+  };
+  if (r.depth) write("depth", 1, render::depth_samples(channels));
+  if (r.normal) write("normal", 3, render::normal_samples(channels));
+  if (r.id) write("id", 1, channels.id);
+}
+
+void render_frames(const ClipArguments& a, ClipPlan& plan, const std::vector<int>& frames) {
   const bool whole = needs_whole_clip(plan.scene);
   const int last = whole ? plan.scene.time.frames() : frames.back();
-  const Shapes shapes = simulate_plan(plan, last, quiet);
+  const Shapes shapes = simulate_plan(plan, last, a.quiet);
   const Clock::time_point start = Clock::now();
+  if (a.jobs > 1 && frames.size() > 1) {
+    render_in_jobs(a, frames);
+    plan.figures.frames_rendered = static_cast<int>(frames.size());
+    plan.figures.render = since(start);
+    read_figures(plan);
+    return;
+  }
   ClipExtent extent;
   for (int f = 1; f <= last; ++f) {
     const CachedFrame data = must_read(plan.cache, f);
@@ -70,7 +95,7 @@ void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
   Stage stage(plan.scene, shapes, extent);
   render::FrameWriter writer(1);
   {
-    Progress progress("render", static_cast<int>(frames.size()), quiet);
+    Progress progress("render", static_cast<int>(frames.size()), a.quiet);
     for (int f : frames) {
       if (interrupted()) break;
       const render::PngText text = {{kHashKey, plan.figures.frame_hash},
@@ -78,7 +103,12 @@ void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
                                     {"softreel:sim_hash", plan.figures.simulation_hash},
                                     {"Software", "softreel " + version()},
                                     {"softreel:driver", stage.renderer().driver()}};
-      writer.write(plan.output / frame_file_name(f), stage.draw(must_read(plan.cache, f)), text);
+      std::optional<CachedFrame> before;
+      if (plan.scene.render.shutter > 0 && f > 1) before = must_read(plan.cache, f - 1);
+      writer.write(plan.output / frame_file_name(f),
+                   stage.draw(f, must_read(plan.cache, f), before ? &*before : nullptr), text);
+      write_channels(plan, stage, f, text);
+      plan.figures.pictures.push_back(stage.renderer().last_picture());
       ++plan.figures.frames_rendered;
       progress.advance();
     }
@@ -88,6 +118,14 @@ void render_frames(ClipPlan& plan, const std::vector<int>& frames, bool quiet) {
   plan.figures.counters = stage.renderer().counters();
   plan.figures.encode = writer.encode_seconds();
   stop_if_interrupted();
+}
+
+void write_sheet(const ClipPlan& plan, const std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kMost = 12;
+  std::vector<SheetFrame> frames;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    frames.push_back({files[i], (plan.frames[i] - 1) / plan.scene.time.fps});
+  render::write_png(plan.output / "sheet.png", contact_sheet(sheet_frames(frames, kMost)));
 }
 
 /// They are not ours to delete, but whoever makes a video of the folder should know.
@@ -112,8 +150,9 @@ int run_render(const ClipArguments& a) {
     if (!up_to_date(files.back(), plan.figures.frame_hash, f)) stale.push_back(f);
   }
   plan.figures.frames_up_to_date = static_cast<int>(plan.frames.size() - stale.size());
-  if (!stale.empty()) render_frames(plan, stale, a.quiet);
+  if (!stale.empty()) render_frames(a, plan, stale);
   if (!a.video.empty()) write_video(a.video, files, plan.scene.time.fps);
+  if (a.sheet) write_sheet(plan, files);
   plan.figures.total = since(start);
   if (!a.stats.empty()) {
     if (stale.empty()) read_figures(plan);
@@ -127,6 +166,7 @@ int run_render(const ClipArguments& a) {
   if (!a.quiet) {
     fmt::print("{}\n", (plan.output / frame_file_name(plan.frames.front())).string());
     if (plan.frames.size() > 1) fmt::print("{}\n", files.back().string());
+    if (a.sheet) fmt::print("{}\n", (plan.output / "sheet.png").string());
     if (!a.video.empty()) fmt::print("{}\n", a.video);
   }
   return kDone;

@@ -15,6 +15,7 @@
 #include "app/stability_map.h"
 #include "app/study_apply.h"
 #include "app/study_plot.h"
+#include "app/study_render.h"
 #include "app/study_report.h"
 #include "app/study_run.h"
 #include "app/study_summary.h"
@@ -84,9 +85,10 @@ std::vector<ReportPicture> pictures(const Sweep& sweep, const std::vector<StudyR
     assets::Scene scene = sweep.variants[i].scene;
     const auto [width, height] = scene.render.size;
     scene.render.size = {320, std::max(1, static_cast<int>(std::lround(320.0 * height / width)))};
-    scene.render.samples = std::min(scene.render.samples, 4);
+    scene.render.samples = scene.render.samples == 0 ? 4 : std::min(scene.render.samples, 4);
     try {
-      const std::vector<unsigned char> png = render::encode_png(Stage(scene, shapes.of(scene), extent).draw(*frame));
+      const std::vector<unsigned char> png =
+          render::encode_png(Stage(scene, shapes.of(scene), extent).draw(1, *frame, nullptr));
       result.push_back({fmt::format("{}: {}, {:.2g} m off", what, row->label, row->errors->worst),
                         std::string(png.begin(), png.end())});
     } catch (const render::RenderError&) {
@@ -149,6 +151,7 @@ std::filesystem::path write_study(const std::filesystem::path& output, StudyRepo
 }  // namespace
 
 int run_study(const StudyArguments& a) {
+  if (a.render) return run_study_render(a);
   const Clock::time_point start = Clock::now();
   use_threads(a.threads);
   if (a.regions) return run_stability_regions(a);

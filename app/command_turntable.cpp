@@ -12,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/output_check.h"
 #include "app/progress.h"
+#include "app/turntable_scene.h"
 #include "app/video.h"
 #include "assets/error.h"
 #include "assets/scene_colors.h"
@@ -38,6 +39,7 @@ assets::ImportedSurface load(const TurntableArguments& a) {
 }  // namespace
 
 int run_turntable(const TurntableArguments& a) {
+  if (std::filesystem::path(a.mesh).extension() == ".toml") return run_turntable_scene(a);
   use_threads(a.threads);
   if (!a.video.empty()) check_video(a.video);
   const std::filesystem::path output =
@@ -60,8 +62,12 @@ int run_turntable(const TurntableArguments& a) {
   render::Bounds bounds;
   for (const sim::Vec3& p : surface.welded.vertices) points.push_back(to_glm(p));
   bounds.add(points);
-  render::Renderer renderer({a.size[0], a.size[1], a.samples, 0, 0});
-  DrawnSurface drawn = drawn_surface(surface, static_cast<int>(points.size()), look, std::nullopt, true);
+  render::RenderOptions options;
+  options.width = a.size[0];
+  options.height = a.size[1];
+  options.samples = a.samples;
+  render::Renderer renderer(options);
+  DrawnSurface drawn = drawn_surface({}, surface, static_cast<int>(points.size()), look, {}, true);
   const render::MeshId mesh = renderer.add_mesh(std::move(drawn.mesh), std::move(drawn.looks));
   renderer.set_positions(mesh, points);
   const glm::vec3 axis = bounds.centre();

@@ -41,11 +41,12 @@ void FieldRange::add(const Eigen::VectorXd& value) {
   high = std::max(high, value.maxCoeff());
 }
 
-std::array<double, 2> color_range(const assets::Field& field, const FieldRange& covered) {
-  if (field.range) return *field.range;
+std::array<double, 2> color_range(const std::optional<std::array<double, 2>>& range, assets::ColorMap map,
+                                  const FieldRange& covered) {
+  if (range) return *range;
   double low = covered.low, high = covered.high;
   if (!(low <= high)) return {0, 1};
-  if (field.colormap == assets::ColorMap::kCoolwarm) {
+  if (map == assets::ColorMap::kCoolwarm) {
     high = std::max(std::abs(low), std::abs(high));
     low = -high;
   }

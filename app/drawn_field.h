@@ -3,6 +3,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "app/shapes.h"
@@ -36,7 +37,8 @@ struct FieldRange {
 
 /// Values of the first and last colour: the scene's, or what the clip covers; for a map with a middle the same on both
 /// sides of zero. Always low < high.
-std::array<double, 2> color_range(const assets::Field& field, const FieldRange& covered);
+std::array<double, 2> color_range(const std::optional<std::array<double, 2>>& range, assets::ColorMap map,
+                                  const FieldRange& covered);
 
 /// Values as places in the colour map, 0..1 within `range`.
 std::vector<float> map_places(const Eigen::VectorXd& value, const std::array<double, 2>& range);

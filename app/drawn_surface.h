@@ -1,8 +1,5 @@
 #pragma once
 // An imported surface as the renderer wants it.
-#include <filesystem>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "assets/scene.h"
@@ -17,12 +14,12 @@ struct DrawnSurface {
   std::vector<render::Look> looks;  ///< one for each part
 };
 
-/// `position_count`: how many positions the physics hands over per frame; `two_sided`: cloth. The scene's `look` wins
-/// over what the file brings; `texture`: the scene's own picture, if it names one.
-DrawnSurface drawn_surface(const assets::ImportedSurface& surface, int position_count, const assets::Look& look,
-                           const std::optional<std::filesystem::path>& texture, bool two_sided);
+/// `position_count`: how many positions the physics hands over per frame; `two_sided`: cloth. The `look` of the scene
+/// wins over what the file brings; `transform`: with which the surface was placed.
+DrawnSurface drawn_surface(const assets::Scene& scene, const assets::ImportedSurface& surface, int position_count,
+                           const assets::Look& look, const assets::Transform& transform, bool two_sided);
 
 /// The look alone, for shapes without a file.
-render::Look plain_look(const assets::Look& look, const std::optional<std::filesystem::path>& texture, bool two_sided);
+render::Look plain_look(const assets::Scene& scene, const assets::Look& look, bool two_sided);
 
 }  // namespace softreel::app

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/body_figure.h"
 #include "app/clip_cache.h"
 #include "app/drawn_field.h"
 #include "app/shapes.h"
@@ -20,9 +21,11 @@ bool needs_whole_clip(const assets::Scene& scene);
 
 /// What the visible things cover over the frames that were added.
 struct ClipExtent {
-  render::Bounds bounds;                 ///< of bodies and colliders with an end
-  std::vector<FieldRange> field_ranges;  ///< as scene.fields
-  std::vector<glm::vec3> points;         ///< corners of the boxes around each of them in each frame, for framing
+  render::Bounds bounds;                                   ///< of bodies and colliders with an end
+  std::vector<FieldRange> field_ranges;                    ///< as scene.fields
+  std::vector<std::shared_ptr<const BodyFigure>> figures;  ///< soft bodies, then cloths; null: shows none
+  std::vector<FieldRange> figure_ranges;                   ///< as `figures`
+  std::vector<glm::vec3> points;  ///< corners of the boxes around each of them in each frame, for framing
 
   void add(const render::Bounds& box);
 };
@@ -30,30 +33,37 @@ struct ClipExtent {
 /// The visible bodies, fields and colliders of one frame.
 void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& frame, ClipExtent& extent);
 
-/// The scene's camera; `extent` frames the clip where the scene leaves it open. `color_bars` take a part of the
-/// picture.
-render::Camera camera_of(const assets::Scene& scene, const ClipExtent& extent,
-                         const std::vector<render::ColorBar>& color_bars = {});
-
 class Stage {
  public:
   /// Builds meshes and looks; camera, ground and lights from `extent` where the scene leaves them open. `scene` and
   /// `shapes` must outlive this.
   Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent);
 
-  render::Image draw(const CachedFrame& frame);
+  /// The picture of frame `number`. `before`: the frame before it, where there is one; used when the shutter is open.
+  render::Image draw(int number, const CachedFrame& frame, const CachedFrame* before);
+  /// The same before tone curve, background and colour bars, with everything standing still.
+  render::FloatImage draw_linear(const CachedFrame& frame);
+  /// The frame as a camera of one's own sees it.
+  render::Image draw_from(const CachedFrame& frame, const render::Camera& camera);
+  /// Depth, normals and ids of what the last picture shows.
+  render::Channels channels();
   const render::Renderer& renderer() const { return renderer_; }
 
  private:
-  void add_bodies(const Shapes& shapes);
+  void add_bodies(const Shapes& shapes, const ClipExtent& extent);
   void add_fields(const Shapes& shapes, const ClipExtent& extent);
   void add_colliders(const Shapes& shapes, const ClipExtent& extent);
   void place_lights(const ClipExtent& extent);
   void place_ground(const ClipExtent& extent);
+  void move_to(const CachedFrame& frame);
+  render::Camera camera_now(const CachedFrame& frame) const;
+  void find_followed(const Shapes& shapes);
 
   struct DrawnBody {
     render::MeshId mesh;
     int first = 0, count = 0;  // vertices of the state
+    std::shared_ptr<const BodyFigure> figure = nullptr;
+    std::array<double, 2> range{0, 1};
   };
   struct DrawnNet {
     render::MeshId mesh;
@@ -80,8 +90,11 @@ class Stage {
   std::vector<DrawnCollider> colliders_;
   const assets::Collider* ground_plane_ = nullptr;  // a plane collider that is drawn as the ground
   render::Camera camera_;
+  int followed_first_ = 0, followed_count_ = 0;  // vertices of the state; 0: the camera follows nothing
+  glm::vec3 followed_start_{0};                  // their mean at t = 0
   std::vector<render::Light> lights_;
   render::Environment environment_;
+  render::Camera last_camera_;
 };
 
 }  // namespace softreel::app

@@ -113,6 +113,11 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
   counter("passes", c.passes);
   counter("shadow_passes", c.shadow_passes);
   counter("draw_calls", c.draw_calls);
+  if (!run.pictures.empty() && run.pictures.front().error)
+    for (const render::PictureReport& picture : run.pictures) {
+      j["picture"]["samples"].push_back(picture.samples);
+      j["picture"]["error_levels"].push_back(picture.error.value_or(0));
+    }
   if (run.simulated) j["worst_residual"] = run.clip.total.residual;
   j["peak_memory_bytes"] = peak_memory_bytes();
   for (const char* name : {"kinetic", "elastic", "gravity", "contact", "dissipated"})
@@ -192,6 +197,14 @@ std::string summary(const RunFigures& run) {
                         run.clip.total.residual);
   else if (run.simulated)
     text += fmt::format("\n{} steps, {} retried", run.clip.total.steps, run.clip.total.retries);
+  if (!run.pictures.empty() && run.pictures.front().error) {
+    const auto by_samples = [](const auto& a, const auto& b) { return a.samples < b.samples; };
+    const auto [least, most] = std::minmax_element(run.pictures.begin(), run.pictures.end(), by_samples);
+    double worst = 0;
+    for (const render::PictureReport& picture : run.pictures) worst = std::max(worst, picture.error.value_or(0));
+    text += fmt::format("\n{} to {} samples a frame; error of a frame {:.2g} of 255 levels at most, as estimated",
+                        least->samples, most->samples, worst);
+  }
   if (const std::optional<ReachedAccuracy> a = reached_accuracy(run)) {
     text += fmt::format(
         "\nerror in time: {:.2g} {} at most, as estimated; asked for were {} {}. {} steps, and {} of coarser "

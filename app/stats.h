@@ -9,6 +9,7 @@
 #include "app/clip_cache.h"
 #include "app/simulate_clip.h"
 #include "render/counters.h"
+#include "render/renderer.h"
 
 namespace softreel::app {
 
@@ -22,7 +23,8 @@ struct RunFigures {
   ClipRun clip;
   std::optional<assets::Accuracy> accuracy;  ///< that was asked for
   render::RenderCounters counters;
-  std::vector<FrameFigures> per_frame;  ///< of the clip's frames that were read, from frame 1
+  std::vector<render::PictureReport> pictures;  ///< of the frames that were rendered, in their order
+  std::vector<FrameFigures> per_frame;          ///< of the clip's frames that were read, from frame 1
   double load = 0, tetrahedralize = 0, render = 0, encode = 0, total = 0;  ///< [s]
 };
 

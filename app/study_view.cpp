@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/scene_camera.h"
 #include "render/camera.h"
 
 namespace softreel::app {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <system_error>
 
 namespace softreel::assets {
@@ -65,23 +66,26 @@ std::filesystem::path find_texture(std::string name, const std::filesystem::path
   return {};
 }
 
-void import_texture(const aiScene& scene, const aiMaterial& material, const std::filesystem::path& folder,
-                    SurfacePart& part, std::vector<std::string>& missing) {
-  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+TextureSource import_texture(const aiScene& scene, const aiMaterial& material,
+                             std::initializer_list<aiTextureType> types, const std::filesystem::path& folder,
+                             std::vector<std::string>& missing) {
+  TextureSource texture;
+  for (const aiTextureType type : types) {
     aiString name;
     if (material.GetTexture(type, 0, &name) != AI_SUCCESS || name.length == 0) continue;
     if (const aiTexture* embedded = scene.GetEmbeddedTexture(name.C_Str())) {
       if (embedded->mHeight == 0 && embedded->mWidth > 0) {  // encoded bytes; raw pixels are not kept
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
-        part.texture_bytes.assign(bytes, bytes + embedded->mWidth);
-        return;
+        texture.bytes.assign(bytes, bytes + embedded->mWidth);
+        return texture;
       }
-    } else if (part.texture_file = find_texture(name.C_Str(), folder); !part.texture_file.empty()) {
-      return;
+    } else if (texture.file = find_texture(name.C_Str(), folder); !texture.file.empty()) {
+      return texture;
     }
     if (std::find(missing.begin(), missing.end(), name.C_Str()) == missing.end()) missing.push_back(name.C_Str());
-    return;
+    return texture;
   }
+  return texture;
 }
 
 }  // namespace
@@ -101,7 +105,15 @@ SurfacePart import_material(const aiScene& scene, const aiMesh& mesh, const std:
   part.metallic = fraction(material, AI_MATKEY_METALLIC_FACTOR);
   part.roughness = fraction(material, AI_MATKEY_ROUGHNESS_FACTOR);
   if (!part.roughness) part.roughness = roughness_of_phong(material);
-  import_texture(scene, material, folder, part, missing);
+  const auto texture = [&](std::initializer_list<aiTextureType> types) {
+    return import_texture(scene, material, types, folder, missing);
+  };
+  part.texture = texture({aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+  part.normal_texture = texture({aiTextureType_NORMALS});
+  part.roughness_texture = texture({aiTextureType_DIFFUSE_ROUGHNESS, aiTextureType_METALNESS});
+  part.emission_texture = texture({aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR});
+  part.emission = color(material, AI_MATKEY_COLOR_EMISSIVE);
+  if (part.emission && *part.emission == std::array<double, 3>{}) part.emission.reset();
   return part;
 }
 

@@ -9,7 +9,7 @@ struct aiMesh;
 
 namespace softreel::assets {
 
-/// Name, base colour, metallic, roughness and base colour texture of the mesh's material; the triangle range is left
+/// Name, base colour, metallic, roughness, emission and textures of the mesh's material; the triangle range is left
 /// alone. A texture that is named but not found under `folder` goes to `missing`.
 SurfacePart import_material(const aiScene& scene, const aiMesh& mesh, const std::filesystem::path& folder,
                             std::vector<std::string>& missing);

@@ -22,8 +22,13 @@ void write_part(BlobWriter& out, const SurfacePart& part) {
   out.value(part.base_color.value_or(std::array<double, 3>{}));
   write_optional(out, part.metallic);
   write_optional(out, part.roughness);
-  out.text(part.texture_file.string());
-  out.array(part.texture_bytes);
+  out.value<std::uint8_t>(part.emission.has_value());
+  out.value(part.emission.value_or(std::array<double, 3>{}));
+  for (const TextureSource* texture :
+       {&part.texture, &part.normal_texture, &part.roughness_texture, &part.emission_texture}) {
+    out.text(texture->file.string());
+    out.array(texture->bytes);
+  }
 }
 
 SurfacePart read_part(BlobReader& in) {
@@ -36,8 +41,14 @@ SurfacePart read_part(BlobReader& in) {
   if (colored) part.base_color = color;
   part.metallic = read_optional(in);
   part.roughness = read_optional(in);
-  part.texture_file = in.text();
-  part.texture_bytes = in.array<std::uint8_t>();
+  const bool emits = in.value<std::uint8_t>() != 0;
+  const auto emission = in.value<std::array<double, 3>>();
+  if (emits) part.emission = emission;
+  for (TextureSource* texture :
+       {&part.texture, &part.normal_texture, &part.roughness_texture, &part.emission_texture}) {
+    texture->file = in.text();
+    texture->bytes = in.array<std::uint8_t>();
+  }
   return part;
 }
 

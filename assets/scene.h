@@ -27,9 +27,14 @@ enum class BendingModel { kAuto, kQuadratic, kDiscreteShell };  ///< kAuto: quad
 enum class TetrahedralizeMode { kConform };
 enum class UpAxis { kX, kY, kZ };
 enum class ColliderShape { kPlane, kSphere, kBox, kCapsule, kMesh };
-enum class LightKind { kArea, kSun };
-enum class GroundMode { kAuto, kOn, kOff };
-enum class ColorMap { kViridis, kInferno, kMagma, kCoolwarm };
+enum class LightKind { kArea, kSun, kRectangle };
+enum class Pattern { kNone, kChecker, kStripes };
+enum class View { kFree, kFront, kBack, kLeft, kRight, kTop, kBottom };
+enum class Quantity { kSpeed, kStrain, kStress };
+enum class Projection { kPerspective, kOrthographic };
+enum class Quality { kDraft, kDefault, kFinal };
+enum class GroundMode { kAuto, kOn, kOff, kShadow };
+enum class ColorMap { kViridis, kInferno, kMagma, kCividis, kCoolwarm };
 
 /// How far a clip may be from the exact motion in time of its meshes: the largest over the frames of the RMS over the
 /// vertices.
@@ -114,7 +119,17 @@ struct Look {
   double roughness = 0.6;           ///< [-] 0 mirror to 1 matt
   double metallic = 0;              ///< [-] 0 or 1, or between
   std::string texture;              ///< picture file, as written; empty: the mesh file's own, if no colour is given
-  double crease = 60;               ///< [deg] edges sharper than this stay hard
+  std::string normal_texture;       ///< picture files in the same way; of glTF's kinds
+  std::string roughness_texture;    ///< green: roughness, blue: metallic
+  std::string emission_texture;
+  std::optional<Color> emission;  ///< given off; absent: the mesh file's own, or with a texture white
+  double emission_strength = 1;   ///< [-]
+  double sheen = 0;               ///< [-] bright rim of fibres
+  Pattern pattern = Pattern::kNone;
+  Color pattern_color = {0.92, 0.92, 0.92};
+  double pattern_size = 0.1;  ///< of a field [m]
+  std::optional<Color> wire;  ///< of the triangles' edges; absent: not drawn
+  double crease = 60;         ///< [deg] edges sharper than this stay hard
 };
 
 struct Block {
@@ -166,6 +181,16 @@ struct BodyContact {
   double thickness = 0;            ///< surfaces keep half of it on either side [m]
 };
 
+/// A figure of the simulation as the colour of a body.
+struct DataView {
+  Quantity show = Quantity::kSpeed;
+  ColorMap colormap = ColorMap::kViridis;
+  std::optional<std::array<double, 2>> range;  ///< values of the first and last colour; absent: of the whole clip
+  double shading = 0.5;                        ///< 0: exactly the colours of the bar, 1: fully lit
+  bool colorbar = true;
+  std::string label;  ///< of the colour bar; empty: quantity and unit
+};
+
 /// What soft bodies and cloths have in common.
 struct Body {
   std::string name;  ///< unique among bodies and colliders; made up ("soft-1") when the file gives none
@@ -177,6 +202,7 @@ struct Body {
   std::vector<Pin> pins;
   BodyContact contact;
   Look look;
+  std::optional<DataView> data;  ///< of soft bodies and cloths
   bool visible = true;
 };
 
@@ -341,20 +367,36 @@ struct Reference {
   std::string x = "0", y = "0", z = "0";
 };
 
+/// Where the camera is at a time; what is absent stays as it is without keys.
+struct CameraKey {
+  double t = 0;                          ///< [s]
+  std::optional<Vec3> position, target;  ///< [m]
+  std::optional<double> fov;             ///< [deg]
+};
+
 struct Camera {
   std::optional<Vec3> position;          ///< [m]; absent: framed over the whole clip, seen from `direction`
   std::optional<Vec3> target;            ///< [m]; absent: the middle of what is to be seen
   Vec3 direction = Vec3(0.55, 0.35, 1);  ///< from the target to the camera, when `position` is absent [-]
   Vec3 up = Vec3::UnitY();               ///< [-]
-  double fov = 35;                       ///< vertical angle of view [deg]
+  Projection projection = Projection::kPerspective;
+  double fov = 35;               ///< vertical angle of view [deg]
+  std::optional<double> height;  ///< that an orthographic picture covers [m]; absent: framed
+  View view = View::kFree;       ///< sets `direction`
+  std::vector<CameraKey> keys;   ///< in the order of time
+  double orbit = 0;              ///< round the target, counter-clockwise seen from above [deg/s]
+  std::string follow;            ///< body whose middle the camera goes along with; empty: none
+  double aperture = 0;           ///< diameter of the lens [m]; 0: everything is sharp
+  std::optional<double> focus;   ///< distance at which things are sharp [m]; absent: that of the target
 };
 
 struct Light {
   LightKind kind = LightKind::kArea;
-  std::optional<Vec3> position;         ///< of an area light [m]; absent: in `direction`, three scene sizes away
+  std::optional<Vec3> position;         ///< of a light at a place [m]; absent: in `direction`, three scene sizes away
   Vec3 direction = Vec3(0.5, 1, 0.35);  ///< from the scene to the light [-]
   std::optional<double> radius;         ///< of an area light [m]; absent: a tenth of its distance
-  double angle = 2;                     ///< a sun's angle of sight [deg]
+  std::optional<std::array<double, 2>> size;  ///< of a rectangle, width and height [m]; absent: 0.2 of its distance
+  double angle = 2;                           ///< a sun's angle of sight [deg]
   Color color = {1, 0.97, 0.92};
   double intensity = 1;  ///< [-] 1: a white surface that faces it, in the middle of the scene, comes out nearly white
   bool shadow = true;
@@ -364,6 +406,8 @@ struct Light {
 struct Background {
   Color top = {0.62, 0.72, 0.83};
   Color bottom = {0.93, 0.94, 0.95};
+  bool sky = false;          ///< the picture `sky_map` instead
+  bool transparent = false;  ///< none: the frames have an alpha channel
 };
 
 /// The plane that things stand on and throw shadows onto; drawn only, what bodies bump into are the colliders.
@@ -372,16 +416,27 @@ struct Ground {
   std::optional<double> height;         ///< y [m]; absent: under the lowest point of the clip
   Color color = {0.72, 0.71, 0.69};
   double roughness = 0.9;  ///< [-]
+  Pattern pattern = Pattern::kNone;
+  Color pattern_color = {0.55, 0.55, 0.55};
+  std::optional<double> pattern_size;  ///< of a field [m]; absent: a tenth of the scene, rounded
 };
 
 struct Render {
   std::array<int, 2> size = {1280, 720};  ///< width, height [pixels]
-  int samples = 16;                       ///< passes averaged into one frame
+  Quality quality = Quality::kDefault;    ///< sets `samples`, where that is not given
+  int samples = 16;                       ///< passes averaged into one frame; 0: as many as `tolerance` needs
+  double tolerance = 0.5;                 ///< of the estimated error when samples is 0, RMS [levels of 255]
   int seed = 0;                           ///< of the sample positions
+  bool animate_seed = false;              ///< another seed for each frame
+  double shutter = 0;                     ///< part of the time between two frames in which light falls in, 0..1
   Background background;
   Ground ground;
   double exposure = 0;  ///< [stops]
-  double sky = 1;       ///< brightness of the sky's even light [-]
+  double sky = 1;       ///< brightness of the sky's light [-]
+  std::string sky_map;  ///< picture of all directions (.hdr), as written; empty: the built-in sky
+  double sky_turn = 0;  ///< of the picture about the vertical [deg]
+  bool depth = false, normal = false, id = false;  ///< side channels, 16-bit PNG files beside the frames
+  bool sky_shadow = true;                          ///< bodies hide the sky from one another and from the ground
 };
 
 /// A file that the scene names, and where it does so.

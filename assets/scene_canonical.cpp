@@ -59,11 +59,15 @@ std::string canonical(const Scene& scene, Role role) {
 
 bool placed_by_the_clip(const Scene& scene) {
   const bool lights = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return light.kind == LightKind::kArea && (!light.position || !light.radius);
+    return light.kind != LightKind::kSun &&
+           (!light.position || (light.kind == LightKind::kArea ? !light.radius : !light.size));
   });
   const bool ground = scene.render.ground.show != GroundMode::kOff && !scene.render.ground.height;
   const bool range = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& f) { return !f.range; });
-  return lights || ground || range || !scene.camera.position || !scene.camera.target;
+  const auto open = [](const Body& b) { return b.data && !b.data->range; };
+  const bool data = std::any_of(scene.soft.begin(), scene.soft.end(), open) ||
+                    std::any_of(scene.cloth.begin(), scene.cloth.end(), open);
+  return lights || ground || range || data || !scene.camera.position || !scene.camera.target;
 }
 
 }  // namespace

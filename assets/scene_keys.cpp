@@ -1,6 +1,6 @@
 // The table: every key of a scene file. To add one, add a line here (and a rule in scene_rules.cpp, if it depends on
 // another key). Bodies and colliders are in scene_keys_bodies.cpp, fields in scene_keys_fields.cpp, what acts on bodies
-// in scene_keys_forces.cpp, contact in scene_keys_contact.cpp.
+// in scene_keys_forces.cpp, contact in scene_keys_contact.cpp, camera, light and picture in scene_keys_picture.cpp.
 #include "assets/scene_limits.h"
 #include "assets/scene_rules.h"
 #include "assets/scene_walk.h"
@@ -59,54 +59,6 @@ void walk(KeyVisitor& v, Damping& d) {
         &d.drag);
   v.key({"alpha", kPhysics, "1/s", at_least(0, 1e9), "Rayleigh damping by the mass"}, &d.alpha);
   v.key({"beta", kPhysics, "s", at_least(0, 1e6), "Rayleigh damping by the stiffness"}, &d.beta);
-}
-
-void walk(KeyVisitor& v, Camera& c) {
-  v.key({"position", kPicture, "m", kPlace, "left out, the whole clip is framed"}, &c.position);
-  v.key({"target", kPicture, "m", kPlace, "what it looks at; left out, the middle of what is to be seen"}, &c.target);
-  v.key({"direction", kPicture, "", {}, "from the target to the camera, when position is left out"}, &c.direction);
-  v.key({"up", kPicture, "", {}, "direction that is up in the picture"}, &c.up);
-  v.key({"fov", kPicture, "deg", between(1, 150), "vertical angle of view"}, &c.fov);
-  if (v.reading()) check(v, c);
-}
-
-void walk(KeyVisitor& v, Light& l) {
-  v.key({"kind", kPicture, "", {}, "area: a glowing disc; sun: parallel light"}, choice(l.kind));
-  v.key({"position", kPicture, "m", kPlace, "of an area light; left out, in direction, at a fitting distance"},
-        &l.position);
-  v.key({"direction", kPicture, "", {}, "from the scene to the light"}, &l.direction);
-  v.key({"radius", kPicture, "m", at_least(0, 1e6), "of an area light; larger is softer"}, &l.radius);
-  v.key({"angle", kPicture, "deg", between(0, 90), "at which a sun is seen; larger is softer"}, &l.angle);
-  v.key({"color", kPicture, "", kUnit, "of the light"}, &l.color);
-  v.key({"intensity", kPicture, "", at_least(0, 1e6), "1: a white surface facing it comes out nearly white"},
-        &l.intensity);
-  v.key({"shadow", kPicture, "", {}, "whether it throws shadows"}, &l.shadow);
-  if (v.reading()) check(v, l);
-}
-
-void walk(KeyVisitor& v, Background& b) {
-  v.key({"top", kPicture, "", kUnit, "colour at the top of the picture"}, &b.top);
-  v.key({"bottom", kPicture, "", kUnit, "colour at the bottom"}, &b.bottom);
-}
-
-void walk(KeyVisitor& v, Ground& g) {
-  v.key({"show", kPicture, "", {}, "auto: unless a plane collider is visible"}, choice(g.show));
-  v.key({"height", kPicture, "m", kPlace, "left out, under the lowest point of the clip"}, &g.height);
-  v.key({"color", kPicture, "", kUnit, "of the ground"}, &g.color);
-  v.key({"roughness", kPicture, "", kUnit, "0 mirror to 1 matt"}, &g.roughness);
-}
-
-void walk(KeyVisitor& v, Render& r) {
-  v.key({"size", kPicture, "pixels", kPixels, "width and height"}, &r.size);
-  v.key({"samples", kPicture, "", kSamples, "passes averaged into one frame"}, &r.samples);
-  v.key({"seed", kPicture, "", between(0, 2147483647), "of the sample positions"}, &r.seed);
-  v.section({"background", "a colour, or one for the top and one for the bottom", {"top", "bottom"}},
-            keys_of(r.background));
-  v.section({"ground", "the plane that things stand on; drawn only, colliders stop bodies", {"show"}},
-            keys_of(r.ground));
-  v.key({"exposure", kPicture, "stops", between(-20, 20), "brightness of the whole picture"}, &r.exposure);
-  v.key({"sky", kPicture, "", at_least(0, 1e3), "brightness of the sky's even light"}, &r.sky);
-  if (v.reading()) check(v, r);
 }
 
 void walk_scene(KeyVisitor& v, Scene& s) {

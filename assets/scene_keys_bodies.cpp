@@ -40,6 +40,7 @@ void walk_body(KeyVisitor& v, Body& b) {
   v.key({"spin", kPhysics, "deg/s", kTurns, "at t = 0, about the world's axes through the centre of mass"}, &b.spin);
   v.list({"pins", "vertices that are held or driven"}, keys_of(b.pins));
   v.section({"look", "how it looks", {"color"}}, keys_of(b.look));
+  v.section({"data", "colours by a figure of the simulation; not for springs", {"show"}}, keys_of(b.data));
   v.key({"visible", kPicture, "", {}, "whether it is drawn"}, &b.visible);
 }
 
@@ -68,6 +69,22 @@ void walk(KeyVisitor& v, Look& l) {
   v.key({"metallic", kPicture, "", kUnit, "0 for everything but metals"}, &l.metallic);
   v.key({"texture", kPicture, "", {}, "picture file, laid on by the texture coordinates of the mesh"},
         FileRef{&l.texture});
+  v.key({"normal_texture", kPicture, "", {}, "picture file of normals in tangent space, green up (glTF)"},
+        FileRef{&l.normal_texture});
+  v.key({"roughness_texture", kPicture, "", {}, "picture file: green times roughness, blue times metallic (glTF)"},
+        FileRef{&l.roughness_texture});
+  v.key({"emission_texture", kPicture, "", {}, "picture file: what the surface gives off, times emission"},
+        FileRef{&l.emission_texture});
+  v.key({"emission", kPicture, "", kUnit, "colour that the surface gives off; it lights nothing else"}, &l.emission);
+  v.key({"emission_strength", kPicture, "", at_least(0, 1e4), "times emission; 1: as bright as white in the light"},
+        &l.emission_strength);
+  v.key({"sheen", kPicture, "", kUnit, "soft bright rim of fibres: velvet, wool"}, &l.sheen);
+  v.key(
+      {"pattern", kPicture, "", {}, "drawn where the body is at rest, so that it sticks; takes the place of a texture"},
+      choice(l.pattern));
+  v.key({"pattern_color", kPicture, "", kUnit, "of every other field; the rest have color"}, &l.pattern_color);
+  v.key({"pattern_size", kPicture, "m", kLength, "of a field"}, &l.pattern_size);
+  v.key({"wire", kPicture, "", kUnit, "colour of the triangles' edges; left out, they are not drawn"}, &l.wire);
   v.key({"crease", kPicture, "deg", between(0, 180), "edges sharper than this stay hard"}, &l.crease);
 }
 

@@ -14,9 +14,14 @@ constexpr Array<3> kBendingModel = {"auto", "quadratic", "discrete-shell"};
 constexpr Array<1> kTetrahedralizeMode = {"conform"};
 constexpr Array<3> kUpAxis = {"x", "y", "z"};
 constexpr Array<5> kColliderShape = {"plane", "sphere", "box", "capsule", "mesh"};
-constexpr Array<2> kLightKind = {"area", "sun"};
-constexpr Array<3> kGroundMode = {"auto", "on", "off"};
-constexpr Array<4> kColorMap = {"viridis", "inferno", "magma", "coolwarm"};
+constexpr Array<3> kLightKind = {"area", "sun", "rectangle"};
+constexpr Array<7> kView = {"free", "front", "back", "left", "right", "top", "bottom"};
+constexpr Array<3> kQuantity = {"speed", "strain", "stress"};
+constexpr Array<3> kPattern = {"none", "checker", "stripes"};
+constexpr Array<2> kProjection = {"perspective", "orthographic"};
+constexpr Array<3> kQuality = {"draft", "default", "final"};
+constexpr Array<4> kGroundMode = {"auto", "on", "off", "shadow"};
+constexpr Array<5> kColorMap = {"viridis", "inferno", "magma", "cividis", "coolwarm"};
 }  // namespace
 
 Names names_of(MassModel) { return kMassModel; }
@@ -26,6 +31,11 @@ Names names_of(TetrahedralizeMode) { return kTetrahedralizeMode; }
 Names names_of(UpAxis) { return kUpAxis; }
 Names names_of(ColliderShape) { return kColliderShape; }
 Names names_of(LightKind) { return kLightKind; }
+Names names_of(View) { return kView; }
+Names names_of(Quantity) { return kQuantity; }
+Names names_of(Pattern) { return kPattern; }
+Names names_of(Projection) { return kProjection; }
+Names names_of(Quality) { return kQuality; }
 Names names_of(GroundMode) { return kGroundMode; }
 Names names_of(ColorMap) { return kColorMap; }
 

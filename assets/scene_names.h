@@ -16,6 +16,11 @@ Names names_of(TetrahedralizeMode);
 Names names_of(UpAxis);
 Names names_of(ColliderShape);
 Names names_of(LightKind);
+Names names_of(Pattern);
+Names names_of(View);
+Names names_of(Quantity);
+Names names_of(Projection);
+Names names_of(Quality);
 Names names_of(GroundMode);
 Names names_of(ColorMap);
 

@@ -16,17 +16,6 @@ namespace softreel::assets {
 
 namespace {
 
-// A key that the choice made elsewhere leaves without a meaning.
-void only_for(KeyVisitor& v, bool applies, std::initializer_list<const char*> keys, const char* rule) {
-  if (applies) return;
-  for (const char* key : keys)
-    if (v.given(key)) v.problem(key, rule);
-}
-
-void nonzero(KeyVisitor& v, const char* key, const Vec3& direction) {
-  if (!(direction.norm() > 1e-9)) v.problem(key, "found [0, 0, 0], expected a direction; its length does not matter");
-}
-
 void check_mesh_or(KeyVisitor& v, const MeshSource& mesh, bool made, const char* key, const char* example) {
   const bool wants_mesh = v.given("mesh"), wants_made = v.given(key);
   if (wants_mesh && wants_made)
@@ -160,6 +149,16 @@ void check_field_integrators(KeyVisitor& v, const Scene& scene) {
 
 }  // namespace
 
+void only_for(KeyVisitor& v, bool applies, std::initializer_list<const char*> keys, const char* rule) {
+  if (applies) return;
+  for (const char* key : keys)
+    if (v.given(key)) v.problem(key, rule);
+}
+
+void nonzero(KeyVisitor& v, const char* key, const Vec3& direction) {
+  if (!(direction.norm() > 1e-9)) v.problem(key, "found [0, 0, 0], expected a direction; its length does not matter");
+}
+
 void check(KeyVisitor& v, const Solver& s) {
   const bool newton = s.method == "newton";
   only_for(v, newton,
@@ -193,6 +192,7 @@ void check_accuracy(KeyVisitor& v, const Scene& scene) {
 
 void check(KeyVisitor& v, Scene& scene) {
   check_names(v, scene);
+  check_pictures(v, scene);
   check_references(v, scene);
   fill_self_contact(v, scene);
   check_static(v, scene);
@@ -298,33 +298,6 @@ void check(KeyVisitor& v, Collider& c) {
   const Vec3& s = c.transform.scale;
   if (round && (s.x() != s.y() || s.x() != s.z()))
     v.problem("scale", "found three different numbers, expected one: a round shape has to stay round");
-}
-
-void check(KeyVisitor& v, const Camera& c) {
-  nonzero(v, "direction", c.direction);
-  nonzero(v, "up", c.up);
-  only_for(v, !c.position, {"direction"}, "has no effect when position is given; keep one of them");
-  if (c.position && c.target && (*c.position - *c.target).norm() < 1e-9)
-    return v.problem("target", "is the camera's own position; it would look nowhere");
-  if (c.position && !c.target) return;
-  const Vec3 view = c.position ? Vec3(*c.position - *c.target) : c.direction;
-  if (view.norm() > 0 && view.normalized().cross(c.up.normalized()).norm() < 1e-6)
-    v.problem("up", "is the direction in which the camera looks; the picture has no upright. Change up or position");
-}
-
-void check(KeyVisitor& v, const Light& light) {
-  const bool area = light.kind == LightKind::kArea;
-  nonzero(v, "direction", light.direction);
-  only_for(v, area, {"position", "radius"}, "is for kind = \"area\"");
-  only_for(v, !area, {"angle"}, "is for kind = \"sun\"; an area light has a radius");
-  only_for(v, !area || !light.position, {"direction"}, "has no effect when position is given; keep one of them");
-}
-
-void check(KeyVisitor& v, const Render& render) {
-  const double pixels = double(render.size[0]) * render.size[1];
-  if (pixels > kMostPixels)
-    v.problem("size", fmt::format("{} x {} are {:.0f} pixels, at most {:.0f}", render.size[0], render.size[1], pixels,
-                                  kMostPixels));
 }
 
 }  // namespace softreel::assets

@@ -76,6 +76,11 @@ struct UnitRef {
   double* metres;
 };  ///< a name such as "mm", or metres
 
+/// A whole number, or "auto" (kept as 0).
+struct AutoRef {
+  int* value;
+};
+
 /// A number or a formula (formula.h), kept as text.
 struct FormulaRef {
   std::string* text;
@@ -86,7 +91,7 @@ using ValueRef = std::variant<double*, std::optional<double>*, int*, bool*, std:
                               std::array<int, 3>*, std::vector<int>*, std::vector<double>*, std::vector<Vec3>*,
                               std::vector<std::array<int, 2>>*, BodyName*, std::array<BodyName, 2>*,
                               std::optional<Accuracy>*, Color*, std::optional<Color>*, std::optional<Box>*, ChoiceRef,
-                              FileRef, NameRef, PresetRef, MethodRef, ScaleRef, AxesRef, UnitRef, FormulaRef>;
+                              FileRef, NameRef, PresetRef, MethodRef, ScaleRef, AxesRef, UnitRef, FormulaRef, AutoRef>;
 
 /// A table of keys inside another.
 struct Section {

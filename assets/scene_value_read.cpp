@@ -207,6 +207,13 @@ class ValueReader {
     return true;
   }
 
+  bool read(const Node& node, const AutoRef& out) {
+    if (node.kind != Node::Kind::kString) return read(node, out.value);
+    if (node.text != "auto") return fail(node);
+    *out.value = 0;
+    return true;
+  }
+
   bool read(const Node& node, const FormulaRef& out) {
     if (node.is_number()) {
       double number = 0;

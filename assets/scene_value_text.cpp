@@ -148,6 +148,7 @@ std::string expected_text(const Key& key, const ValueRef& value, const std::stri
           [](const MethodRef& m) { return "one of " + join_names(method_names(m), true); },
           [&](const ScaleRef&) { return "a number or three [x, y, z]" + unit + each; },
           [](const AxesRef&) { return std::string("a text of x, y and z, such as \"xz\""); },
+          [&](const AutoRef&) { return "a whole number" + unit + range + ", or \"auto\""; },
           [&](const FormulaRef&) {
             return "a number" + unit + range + ", or a formula in x, y, z, t as a text such as \"sin(pi*x)*exp(-t)\"";
           },
@@ -159,57 +160,59 @@ std::string expected_text(const Key& key, const ValueRef& value, const std::stri
 }
 
 std::string value_text(const ValueRef& value) {
-  return std::visit(Overload{
-                        [](double* v) { return fmt::format("{}", *v); },
-                        [](std::optional<double>* v) { return optional_text(*v); },
-                        [](int* v) { return fmt::format("{}", *v); },
-                        [](bool* v) { return std::string(*v ? "true" : "false"); },
-                        [](std::string* v) { return toml_string(*v); },
-                        [](Vec3* v) { return array_text(*v); },
-                        [](std::optional<Vec3>* v) { return optional_text(*v); },
-                        [](std::array<double, 2>* v) { return array_text(*v); },
-                        [](std::optional<std::array<double, 2>>* v) { return optional_text(*v); },
-                        [](std::array<int, 2>* v) { return array_text(*v); },
-                        [](std::array<int, 3>* v) { return array_text(*v); },
-                        [](std::vector<int>* v) { return array_text(*v); },
-                        [](std::vector<double>* v) {
-                          if (v->empty()) return std::string();
-                          return v->size() == 1 ? fmt::format("{}", v->front()) : array_text(*v);
-                        },
-                        [](std::vector<Vec3>* v) { return list_text(*v); },
-                        [](std::vector<std::array<int, 2>>* v) { return list_text(*v); },
-                        [](BodyName* v) { return v->name.empty() ? std::string() : toml_string(v->name); },
-                        [](std::array<BodyName, 2>* v) {
-                          if ((*v)[0].name.empty()) return std::string();
-                          return fmt::format("[{}, {}]", toml_string((*v)[0].name), toml_string((*v)[1].name));
-                        },
-                        [](std::optional<Accuracy>* v) {
-                          return *v ? fmt::format("\"{} {}\"", (*v)->value, (*v)->unit) : std::string();
-                        },
-                        [](Color* v) { return array_text(*v); },
-                        [](std::optional<Color>* v) { return optional_text(*v); },
-                        [](std::optional<Box>* v) {
-                          return *v ? fmt::format("[{}, {}]", array_text((*v)->lo), array_text((*v)->hi)) : "";
-                        },
-                        [](const ChoiceRef& v) { return toml_string(v.names[static_cast<size_t>(v.get(v.value))]); },
-                        [](const FileRef& v) { return v.path->empty() ? std::string() : toml_string(*v.path); },
-                        [](const NameRef& v) { return v.name->empty() ? std::string() : toml_string(*v.name); },
-                        [](const PresetRef& v) { return v.name->empty() ? std::string() : toml_string(*v.name); },
-                        [](const MethodRef& v) { return toml_string(*v.name); },
-                        [](const ScaleRef& v) { return array_text(*v.value); },
-                        [](const AxesRef& v) {
-                          std::string axes;
-                          for (size_t i = 0; i < 3; ++i)
-                            if ((*v.value)[i]) axes += "xyz"[i];
-                          return toml_string(axes);
-                        },
-                        [](const FormulaRef& v) {
-                          const bool number = v.text->find_first_not_of("+-.0123456789e") == std::string::npos;
-                          return number && *v.text != "e" ? *v.text : toml_string(*v.text);
-                        },
-                        [](const UnitRef& v) { return fmt::format("{}", *v.metres); },
-                    },
-                    value);
+  return std::visit(
+      Overload{
+          [](double* v) { return fmt::format("{}", *v); },
+          [](std::optional<double>* v) { return optional_text(*v); },
+          [](int* v) { return fmt::format("{}", *v); },
+          [](bool* v) { return std::string(*v ? "true" : "false"); },
+          [](std::string* v) { return toml_string(*v); },
+          [](Vec3* v) { return array_text(*v); },
+          [](std::optional<Vec3>* v) { return optional_text(*v); },
+          [](std::array<double, 2>* v) { return array_text(*v); },
+          [](std::optional<std::array<double, 2>>* v) { return optional_text(*v); },
+          [](std::array<int, 2>* v) { return array_text(*v); },
+          [](std::array<int, 3>* v) { return array_text(*v); },
+          [](std::vector<int>* v) { return array_text(*v); },
+          [](std::vector<double>* v) {
+            if (v->empty()) return std::string();
+            return v->size() == 1 ? fmt::format("{}", v->front()) : array_text(*v);
+          },
+          [](std::vector<Vec3>* v) { return list_text(*v); },
+          [](std::vector<std::array<int, 2>>* v) { return list_text(*v); },
+          [](BodyName* v) { return v->name.empty() ? std::string() : toml_string(v->name); },
+          [](std::array<BodyName, 2>* v) {
+            if ((*v)[0].name.empty()) return std::string();
+            return fmt::format("[{}, {}]", toml_string((*v)[0].name), toml_string((*v)[1].name));
+          },
+          [](std::optional<Accuracy>* v) {
+            return *v ? fmt::format("\"{} {}\"", (*v)->value, (*v)->unit) : std::string();
+          },
+          [](Color* v) { return array_text(*v); },
+          [](std::optional<Color>* v) { return optional_text(*v); },
+          [](std::optional<Box>* v) {
+            return *v ? fmt::format("[{}, {}]", array_text((*v)->lo), array_text((*v)->hi)) : "";
+          },
+          [](const ChoiceRef& v) { return toml_string(v.names[static_cast<size_t>(v.get(v.value))]); },
+          [](const FileRef& v) { return v.path->empty() ? std::string() : toml_string(*v.path); },
+          [](const NameRef& v) { return v.name->empty() ? std::string() : toml_string(*v.name); },
+          [](const PresetRef& v) { return v.name->empty() ? std::string() : toml_string(*v.name); },
+          [](const MethodRef& v) { return toml_string(*v.name); },
+          [](const ScaleRef& v) { return array_text(*v.value); },
+          [](const AxesRef& v) {
+            std::string axes;
+            for (size_t i = 0; i < 3; ++i)
+              if ((*v.value)[i]) axes += "xyz"[i];
+            return toml_string(axes);
+          },
+          [](const AutoRef& v) { return *v.value == 0 ? toml_string("auto") : fmt::format("{}", *v.value); },
+          [](const FormulaRef& v) {
+            const bool number = v.text->find_first_not_of("+-.0123456789e") == std::string::npos;
+            return number && *v.text != "e" ? *v.text : toml_string(*v.text);
+          },
+          [](const UnitRef& v) { return fmt::format("{}", *v.metres); },
+      },
+      value);
 }
 
 std::vector<std::string> value_choices(const ValueRef& value) {

@@ -31,6 +31,8 @@ void walk(KeyVisitor& v, ContactPair& pair);
 void walk(KeyVisitor& v, Contact& contact);
 void walk(KeyVisitor& v, Damping& damping);
 void walk(KeyVisitor& v, Reference& reference);
+void walk(KeyVisitor& v, DataView& data);
+void walk(KeyVisitor& v, CameraKey& key);
 void walk(KeyVisitor& v, Camera& camera);
 void walk(KeyVisitor& v, Light& light);
 void walk(KeyVisitor& v, Background& background);

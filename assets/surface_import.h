@@ -13,6 +13,13 @@
 
 namespace softreel::assets {
 
+/// A picture that a material names.
+struct TextureSource {
+  std::filesystem::path file;       ///< absolute; empty: none
+  std::vector<std::uint8_t> bytes;  ///< or the encoded picture (PNG, JPEG) out of the mesh file
+  bool given() const { return !file.empty() || !bytes.empty(); }
+};
+
 /// A range of triangles with one material.
 struct SurfacePart {
   std::string name;                                 ///< of the material, or of the mesh; may be empty
@@ -20,8 +27,11 @@ struct SurfacePart {
   int triangle_count = 0;                           ///< > 0
   std::optional<std::array<double, 3>> base_color;  ///< linear RGB in [0, 1]
   std::optional<double> metallic, roughness;        ///< [0, 1], where the file has them
-  std::filesystem::path texture_file;               ///< base colour texture (sRGB), absolute; empty: none
-  std::vector<std::uint8_t> texture_bytes;          ///< or the encoded picture (PNG, JPEG) out of the file
+  std::optional<std::array<double, 3>> emission;    ///< linear RGB, >= 0
+  TextureSource texture;                            ///< of the base colour, sRGB
+  TextureSource normal_texture;                     ///< in tangent space, as glTF
+  TextureSource roughness_texture;                  ///< green roughness, blue metallic, as glTF
+  TextureSource emission_texture;                   ///< sRGB
 };
 
 /// One surface. `triangles[i]` and `welded.triangles[i]` are the same triangle, so

@@ -67,7 +67,26 @@ glm::mat4 camera_from_world(const Camera& camera) {
 }
 
 glm::mat4 clip_from_camera(const Camera& camera, float aspect) {
+  if (camera.orthographic()) {
+    const float up = 0.5f * camera.height;
+    return glm::ortho(-up * aspect, up * aspect, -up, up, camera.near, camera.far);
+  }
   return glm::perspective(glm::radians(camera.fov), aspect, camera.near, camera.far);
+}
+
+LensView through_lens(const Camera& camera, const glm::vec2& disc) {
+  LensView view{camera, {0, 0}};
+  if (!(camera.aperture > 0) || camera.orthographic() || disc == glm::vec2(0)) return view;
+  const glm::mat4 from_world = camera_from_world(camera);
+  const glm::vec3 right(from_world[0].x, from_world[1].x, from_world[2].x);
+  const glm::vec3 up(from_world[0].y, from_world[1].y, from_world[2].y);
+  const glm::vec2 aside = 0.5f * camera.aperture * disc;
+  const float focus = camera.focus > 0 ? camera.focus : glm::length(camera.target - camera.position);
+  const glm::vec3 moved = aside.x * right + aside.y * up;
+  view.camera.position += moved;
+  view.camera.target += moved;
+  view.shear = aside / focus;
+  return view;
 }
 
 Camera fit_near_far(Camera camera, const Bounds& bounds) {
@@ -89,6 +108,13 @@ Camera fit_near_far(Camera camera, const Bounds& bounds) {
   }
   farthest = std::max(farthest * 1.01, 1e-4);
   // A 32-bit depth buffer resolves about 1e-7 of far / near: 1e4 leaves plenty.
+  if (camera.orthographic()) {
+    // Depth is linear, and what stands behind the camera's position is seen as well.
+    const double slack = std::max(0.01 * (farthest - nearest), 1e-4);
+    if (camera.far <= 0) camera.far = static_cast<float>(farthest + slack);
+    if (camera.near <= 0) camera.near = static_cast<float>(std::min(nearest, farthest) - slack);
+    return camera;
+  }
   if (camera.far <= 0) camera.far = static_cast<float>(farthest);
   if (camera.near <= 0) camera.near = static_cast<float>(std::max(nearest * 0.99, camera.far * 1e-4));
   if (camera.near >= camera.far) camera.near = camera.far * 1e-4f;
@@ -124,6 +150,27 @@ Camera frame_points(std::span<const glm::vec3> points, float fov, float aspect, 
       std::max({nearest - farthest, across.distance() * across.k, upright.distance() * upright.k, 1e-3});
   const double back = std::max({across.distance(), upright.distance(), nearest + 0.05 * size});
   return camera_at(frame, across.centre(), upright.centre(), back, 0.5 * (nearest + farthest), fov);
+}
+
+Camera frame_points_orthographic(std::span<const glm::vec3> points, float aspect, const glm::vec3& direction,
+                                 float margin) {
+  constexpr float kAnyFov = 40;
+  check_framing(kAnyFov, aspect, direction, margin);
+  static constexpr std::array<glm::vec3, 2> kUnitBox{glm::vec3(-0.5f), glm::vec3(0.5f)};
+  if (points.empty()) points = kUnitBox;
+  const Frame frame = view_frame(direction);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::vec3& point : points) {
+    const glm::dvec3 p(point);
+    const glm::dvec3 seen(glm::dot(p, frame.right), glm::dot(p, frame.up), glm::dot(p, frame.back));
+    low = glm::min(low, seen);
+    high = glm::max(high, seen);
+  }
+  const glm::dvec3 size = high - low, middle = 0.5 * (low + high);
+  const double covered = std::max({size.y, size.x / aspect, 1e-3}) / (1.0 - margin);
+  Camera camera = camera_at(frame, middle.x, middle.y, high.z + covered, middle.z, kAnyFov);
+  camera.height = static_cast<float>(covered);
+  return camera;
 }
 
 Camera frame_bounds(const Bounds& bounds, float fov, float aspect, const glm::vec3& direction, float margin) {

@@ -7,14 +7,18 @@
 
 namespace softreel::render {
 
-/// Pinhole camera in world space, right-handed, looking from `position` to `target`.
+/// Camera in world space, right-handed, looking from `position` to `target`.
 struct Camera {
   glm::vec3 position{3, 2, 4};   ///< [m]
   glm::vec3 target{0, 0.5f, 0};  ///< [m]
   glm::vec3 up{0, 1, 0};
-  float fov = 40;  ///< vertical opening [degrees], 0 < fov < 180
-  float near = 0;  ///< [m]; 0: fitted to what is drawn
-  float far = 0;   ///< [m]; 0: fitted to what is drawn
+  float fov = 40;      ///< vertical opening [degrees], 0 < fov < 180
+  float near = 0;      ///< [m]; 0: fitted to what is drawn
+  float far = 0;       ///< [m]; 0: fitted to what is drawn
+  float height = 0;    ///< orthographic: what the picture's height covers [m]; 0: perspective, by `fov`
+  float aperture = 0;  ///< diameter of the thin lens [m]; 0: a pinhole, everything is sharp. Perspective only
+  float focus = 0;     ///< distance along the view at which things are sharp [m]; 0: that of `target`
+  bool orthographic() const { return height > 0; }
 };
 
 glm::mat4 camera_from_world(const Camera& camera);
@@ -32,6 +36,16 @@ glm::vec3 default_view_direction();
 /// aspect, margin or direction out of range.
 Camera frame_points(std::span<const glm::vec3> points, float fov, float aspect,
                     const glm::vec3& direction = default_view_direction(), float margin = 0.08f);
+/// The same for an orthographic camera: the least `height` that holds all points.
+Camera frame_points_orthographic(std::span<const glm::vec3> points, float aspect,
+                                 const glm::vec3& direction = default_view_direction(), float margin = 0.08f);
+/// The camera with its eye at `disc` (unit disc) of the lens, still looking straight ahead; `shear` goes onto the
+/// projection so that what lies in focus stays where it is.
+struct LensView {
+  Camera camera;
+  glm::vec2 shear{0};  ///< tangents, right and up: x_clip += shear * depth, before the scale of the projection
+};
+LensView through_lens(const Camera& camera, const glm::vec2& disc);
 /// The same for the corners of a box.
 Camera frame_bounds(const Bounds& bounds, float fov, float aspect,
                     const glm::vec3& direction = default_view_direction(), float margin = 0.08f);

@@ -18,6 +18,9 @@ constexpr std::uint32_t kInferno[] = {0x000004, 0x210c4a, 0x57106e, 0x8a226a, 0x
                                       0xe45a31, 0xf98e09, 0xf9cb35, 0xfcffa4};
 constexpr std::uint32_t kMagma[] = {0x000004, 0x1d1147, 0x51127c, 0x832681, 0xb73779,
                                     0xe75263, 0xfc8961, 0xfec488, 0xfcfdbf};
+constexpr std::uint32_t kCividis[] = {0x002051, 0x012b65, 0x11366c, 0x26426e, 0x3c4d6e, 0x51586e,
+                                      0x62646f, 0x727071, 0x7f7c75, 0x8c8877, 0x9a9478, 0xa9a177,
+                                      0xbbaf71, 0xcebd68, 0xe2cb5c, 0xf3da4f, 0xfdea45};
 constexpr std::uint32_t kCoolwarm[] = {0x3b4cc0, 0x4d68d7, 0x6282ea, 0x779af7, 0x8db0fe, 0xa3c2ff,
                                        0xb8d0f9, 0xccd9ee, 0xdddddd, 0xecd3c5, 0xf5c4ad, 0xf7b194,
                                        0xf49a7b, 0xec7f63, 0xde604d, 0xcb3e38, 0xb40426};
@@ -28,6 +31,10 @@ constexpr ColorMap kMaps[] = {
     {"viridis", kListed, kViridis},
     {"inferno", kListed, kInferno},
     {"magma", kListed, kMagma},
+    {"cividis",
+     "Nunez, Anderton, Renslow 2018: \"Optimizing colormaps with consideration for color vision deficiency\"; "
+     "as the polynomial of d3-scale-chromatic",
+     kCividis},
     {"coolwarm", "Moreland 2009: \"Diverging Color Maps for Scientific Visualization\"", kCoolwarm},
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // What surrounds the bodies: sky light, ground, background, exposure.
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "render/bounds.h"
@@ -13,18 +14,24 @@ namespace softreel::render {
 /// A ground plane without end that receives shadows and fades into the background.
 struct Ground {
   bool visible = false;
-  float height = 0;           ///< world y [m]
-  glm::vec3 centre{0, 0, 0};  ///< about which it fades; y is not used
-  float fade_begin = 5;       ///< distance from `centre` up to which it is opaque [m]
-  float fade_end = 25;        ///< distance from which only the background is seen [m]
-  Look look;                  ///< matte: only its color is used
+  float height = 0;             ///< world y [m]
+  glm::vec3 centre{0, 0, 0};    ///< about which it fades; y is not used
+  float fade_begin = 5;         ///< distance from `centre` up to which it is opaque [m]
+  float fade_end = 25;          ///< distance from which only the background is seen [m]
+  bool catches_shadow = false;  ///< invisible itself: only the light that bodies take away darkens the background
+  Look look;                    ///< matte: its color and pattern
 };
+
+class Panorama;
 
 /// Colours are linear; the radiance of a white matte surface under `sky` alone, facing up, is `sky`.
 struct Environment {
   glm::vec3 sky{0.42f, 0.46f, 0.52f};           ///< ambient light from above
   glm::vec3 ground_light{0.26f, 0.24f, 0.22f};  ///< ambient light from below
-  bool sky_shadow = false;  ///< ambient light is blocked by bodies: one more shadow map in each accumulation pass
+  bool sky_shadow = false;  ///< ambient light is blocked by bodies: in each accumulation pass one more shadow map from
+                            ///< one direction of the sky
+  std::shared_ptr<const Panorama> panorama;  ///< in place of `sky` and `ground_light`; its sun is not among the lights
+  bool panorama_behind = false;              ///< it is the background, too, in place of the colours below
   Ground ground;
   /// Background in the picture's own (display) linear values: what is asked for is what the file holds.
   glm::vec3 background_top{0.40f, 0.45f, 0.52f};

@@ -60,7 +60,10 @@ namespace softreel::render {
   X(PFNGLNAMEDFRAMEBUFFERTEXTURELAYERPROC, NamedFramebufferTextureLayer) \
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                                   \
   X(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f)                         \
+  X(PFNGLPROGRAMUNIFORM3FVPROC, ProgramUniform3fv)                       \
   X(PFNGLPROGRAMUNIFORM4FVPROC, ProgramUniform4fv)                       \
+  X(PFNGLPOLYGONMODEPROC, PolygonMode)                                   \
+  X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                               \
   X(PFNGLPROGRAMUNIFORMMATRIX3FVPROC, ProgramUniformMatrix3fv)           \
   X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)           \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                     \

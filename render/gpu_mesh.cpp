@@ -42,7 +42,28 @@ GpuMesh::GpuMesh(const GlFunctions& gl, SurfaceMesh mesh, std::vector<Look> look
     gl.VertexArrayVertexBuffer(array, 2, *value_buffer_, 0, sizeof(float));
     attribute(kValueAttribute, 1, 0, 2);
   }
+  const bool patterned =
+      std::any_of(looks_.begin(), looks_.end(), [](const Look& look) { return look.pattern != Pattern::kNone; });
+  if (patterned && !mesh_.rest.empty()) set_rest(mesh_.rest);
   check_gl(gl, "set up a mesh");
+}
+
+void GpuMesh::set_rest(std::span<const glm::vec3> rest) {
+  rest_buffer_ = make_buffer(gl_, rest.size_bytes(), rest.data(), 0);
+  const GLuint array = *vertex_array_;
+  gl_.VertexArrayVertexBuffer(array, 3, *rest_buffer_, 0, sizeof(glm::vec3));
+  gl_.EnableVertexArrayAttrib(array, kRestAttribute);
+  gl_.VertexArrayAttribFormat(array, kRestAttribute, 3, GL_FLOAT, GL_FALSE, 0);
+  gl_.VertexArrayAttribBinding(array, kRestAttribute, 3);
+}
+
+void GpuMesh::set_rest_of_square(float half) {
+  if (rest_buffer_) return;
+  std::vector<glm::vec3> rest;
+  for (const glm::vec3& p : positions_) rest.push_back(half * p);
+  std::vector<glm::vec3> corners;
+  for (const std::uint32_t position : mesh_.position_of) corners.push_back(rest[position]);
+  set_rest(corners);
 }
 
 void GpuMesh::set_values(std::span<const float> values) {

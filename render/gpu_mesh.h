@@ -29,6 +29,9 @@ class GpuMesh {
   std::size_t position_count() const { return mesh_.position_count; }
   std::size_t triangle_count() const { return mesh_.triangles.size(); }
   bool is_field() const { return static_cast<bool>(value_buffer_); }
+  bool has_rest() const { return static_cast<bool>(rest_buffer_); }
+  /// Rest coordinates of a square of half that size, for the ground's pattern; made once [m].
+  void set_rest_of_square(float half);
   bool has_uv() const { return !mesh_.uv.empty(); }
   std::span<const MeshPart> parts() const { return mesh_.parts; }
   const Look& look(std::size_t index) const { return looks_[index]; }
@@ -42,6 +45,8 @@ class GpuMesh {
   bool casts_shadow = true;
 
  private:
+  void set_rest(std::span<const glm::vec3> rest);
+
   struct Vertex {
     glm::vec3 position;
     glm::vec3 normal;
@@ -60,6 +65,7 @@ class GpuMesh {
   GlBuffer vertex_buffer_;
   GlBuffer uv_buffer_;
   GlBuffer value_buffer_;
+  GlBuffer rest_buffer_;
   GlBuffer index_buffer_;
   GlVertexArray vertex_array_;
 };

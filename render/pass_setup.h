@@ -17,7 +17,7 @@ struct PictureSetup {
   Camera camera;  ///< with near and far
   int width = 1;
   int height = 1;
-  int passes = 1;
+  int passes = 1;  ///< each pass stands for one part in so many of lights and sky
   int shadow_map_size = 1024;
   std::vector<Light> lights;    ///< those that shine
   std::vector<int> shadow_map;  ///< per light: its map, -1 none

@@ -20,18 +20,21 @@ struct LightUniforms {
   glm::vec4 place{0};  ///< position (w = 1), or unit direction towards the light (w = 0), world
   glm::vec4 color{
       0};  ///< rgb: radiance of a white matte surface facing it; w: reference distance squared [m^2], 0 no falloff
-  glm::vec4 extra{0};  ///< x: radius [m] or tangent of the part this pass stands for; y: whole radius [m]
+  glm::vec4 extra{0};   ///< x: radius [m] or tangent of the part this pass stands for; y: whole radius [m]
+  glm::vec4 facing{0};  ///< xyz: unit direction into which a rectangle shines; w: 1 for a rectangle, otherwise 0
 };
 
 struct PassUniforms {
   glm::mat4 clip_from_world{1};
   glm::mat4 world_from_clip{1};
-  glm::vec4 picture{0};        ///< x, y: 2 / size [1/px]
-  glm::vec4 camera{0};         ///< xyz position, w: number of the pass
+  glm::vec4 picture{0};        ///< x, y: 2 / size [1/px]; z: 1 perspective, 0 orthographic
+  glm::vec4 camera{0};         ///< xyz position, of an orthographic one the direction towards it; w: number of the pass
   glm::vec4 sky{0};            ///< rgb
   glm::vec4 ground_light{0};   ///< rgb
   glm::vec4 ground{0};         ///< x, z of its centre, begin and end of the fade [m]
   glm::vec4 sky_direction{0};  ///< xyz: towards the part of the sky of this pass
+  glm::vec4 sky_part{0};       ///< rgb: light of that part on a white matte surface facing it
+  std::array<glm::vec4, 9> harmonics{};  ///< rgb: Panorama::irradiance
   std::array<LightUniforms, kMaxLights> lights{};
   std::array<ShadowUniforms, kMaxShadowMaps> shadows{};
 };

@@ -30,6 +30,15 @@ void PictureTargets::add_display() {
   check_framebuffer(gl_, film_, "a picture of floats in two layers");
 }
 
+void PictureTargets::add_emission() {
+  if (emission_) return;
+  emission_ = make_texture(gl_, GL_RGBA32F, width_, height_);
+  gl_.NamedFramebufferTexture(*geometry_, GL_COLOR_ATTACHMENT1, *emission_, 0);
+  constexpr std::array<GLenum, 2> kBoth{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl_.NamedFramebufferDrawBuffers(*geometry_, kBoth.size(), kBoth.data());
+  check_framebuffer(gl_, geometry_, "a picture of surfaces that give off light");
+}
+
 void PictureTargets::begin_geometry() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, *geometry_);
   gl_.Viewport(0, 0, width_, height_);
@@ -62,11 +71,26 @@ void PictureTargets::begin_lighting(int pass, int passes, RenderCounters& counte
   }
   gl_.BindTextureUnit(kSurfaceUnit, *surface_);
   gl_.BindSampler(kSurfaceUnit, *nearest_);
+  if (emission_) {
+    gl_.BindTextureUnit(kEmissionUnit, *emission_);
+    gl_.BindSampler(kEmissionUnit, *nearest_);
+  }
   gl_.BindTextureUnit(kDepthUnit, *depth_);
   gl_.BindSampler(kDepthUnit, *nearest_);
 }
 
-FloatImage PictureTargets::read(int passes) {
+void PictureTargets::read_geometry(std::vector<glm::uvec4>& words, std::vector<float>& depth) {
+  const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  words.resize(count);
+  depth.resize(count);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, *geometry_);
+  gl_.NamedFramebufferReadBuffer(*geometry_, GL_COLOR_ATTACHMENT0);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA_INTEGER, GL_UNSIGNED_INT, words.data());
+  gl_.ReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  check_gl(gl_, "read depth and normals");
+}
+
+FloatImage PictureTargets::read(float weight) {
   FloatImage film;
   film.width = width_;
   film.height = height_;
@@ -75,10 +99,8 @@ FloatImage PictureTargets::read(int passes) {
     layer.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     gl_.NamedFramebufferReadBuffer(*film_, attachment);
     gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, layer.data());
-    if (passes > 1) {
-      const float weight = 1.0f / static_cast<float>(passes);
+    if (weight != 1)
       for (glm::vec4& pixel : layer) pixel *= weight;
-    }
   };
   read_layer(GL_COLOR_ATTACHMENT0, film.rgba);
   if (display_) read_layer(GL_COLOR_ATTACHMENT1, film.display);

@@ -1,10 +1,12 @@
 #pragma once
 // Programs and textures by what a look needs; made when first needed.
 #include <map>
+#include <utility>
 
 #include "render/counters.h"
 #include "render/gl_objects.h"
 #include "render/image.h"
+#include "render/panorama.h"
 #include "render/shader_sources.h"
 
 namespace softreel::render {
@@ -12,12 +14,12 @@ namespace softreel::render {
 class Programs {
  public:
   explicit Programs(const GlFunctions& gl) : gl_(gl) {}
-  GLuint geometry(GeometryKind kind);
+  GLuint geometry(const GeometryFeatures& features);
   GLuint lighting(const LightingFeatures& features);
 
  private:
   const GlFunctions& gl_;
-  std::map<GeometryKind, GlProgram> geometry_;
+  std::map<GeometryFeatures, GlProgram> geometry_;
   std::map<LightingFeatures, GlProgram> lighting_;
 };
 
@@ -33,16 +35,35 @@ class ColorMapTexture {
   GlSampler sampler_;
 };
 
-class ColorTextures {
+/// The levels of a panorama; uploaded when first bound.
+class PanoramaTexture {
  public:
-  explicit ColorTextures(const GlFunctions& gl) : gl_(gl) {}
-  /// Uploads the picture, unless it already is there. The picture must stay alive as long as this does.
-  void add(const Image& image, RenderCounters& counters);
-  void bind(const Image& image) const;
+  explicit PanoramaTexture(const GlFunctions& gl) : gl_(gl) {}
+  /// The panorama must stay alive as long as this does.
+  void bind(const Panorama& panorama, RenderCounters& counters);
 
  private:
   const GlFunctions& gl_;
-  std::map<const Image*, GlTexture> textures_;
+  const Panorama* uploaded_ = nullptr;
+  GlTexture texture_;
+  GlSampler sampler_;
+};
+
+enum class TextureKind {
+  kColor,   ///< sRGB
+  kNumbers  ///< as they stand in the file
+};
+
+class Textures {
+ public:
+  explicit Textures(const GlFunctions& gl) : gl_(gl) {}
+  /// Uploads the picture, unless it already is there. The picture must stay alive as long as this does.
+  void add(const Image& image, TextureKind kind, RenderCounters& counters);
+  void bind(const Image& image, TextureKind kind, GLuint unit) const;
+
+ private:
+  const GlFunctions& gl_;
+  std::map<std::pair<const Image*, TextureKind>, GlTexture> textures_;
   GlSampler sampler_;
 };
 

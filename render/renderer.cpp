@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <stdexcept>
 
 #include "render/color_map.h"
+#include "render/error_estimate.h"
 #include "render/gl_context.h"
 #include "render/gpu_mesh.h"
 #include "render/pass_setup.h"
@@ -16,6 +16,7 @@
 #include "render/programs.h"
 #include "render/sampling.h"
 #include "render/shadow_maps.h"
+#include "render/surface_pass.h"
 
 namespace softreel::render {
 
@@ -32,6 +33,8 @@ void check_options(const RenderOptions& options) {
         fmt::format("shadow maps of {} texels: must be 16 to 8192, or 0", options.shadow_map_size));
 }
 
+constexpr int kFirstPasses = 8;  // before the error of a picture is estimated
+
 int shadow_map_size(const RenderOptions& options) {
   if (options.shadow_map_size != 0) return options.shadow_map_size;
   return std::max(options.width, options.height) <= 1280 ? 1024 : 2048;
@@ -46,7 +49,8 @@ struct Renderer::State {
         targets(gl, asked.width, asked.height),
         programs(gl),
         textures(gl),
-        color_maps(gl) {
+        color_maps(gl),
+        panorama(gl) {
     no_vertices = make_vertex_array(gl);
     pass_buffer = make_buffer(gl, sizeof(PassUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
   }
@@ -55,10 +59,12 @@ struct Renderer::State {
   GlContext context;
   GlFunctions gl;
   RenderCounters counters;
+  PictureReport report;
   PictureTargets targets;
   Programs programs;
-  ColorTextures textures;
+  Textures textures;
   ColorMapTexture color_maps;
+  PanoramaTexture panorama;
   GlBuffer pass_buffer;
   GlVertexArray no_vertices;
   std::optional<ShadowMaps> shadow_maps;
@@ -81,13 +87,29 @@ struct Renderer::State {
     return std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_field(); });
   }
 
+  bool has_emission() const {
+    return std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) {
+      return std::any_of(mesh->looks().begin(), mesh->looks().end(), [](const Look& look) { return look.emits(); });
+    });
+  }
+
   void upload_changes() {
     for (const auto& mesh : meshes) {
       if (!mesh->visible) continue;
       mesh->upload(counters);
       for (const Look& look : mesh->looks())
-        if (look.texture && mesh->has_uv()) textures.add(*look.texture, counters);
+        if (mesh->has_uv()) add_textures(look);
     }
+  }
+
+  void add_textures(const Look& look) {
+    const auto add = [&](const std::shared_ptr<const Image>& image, TextureKind kind) {
+      if (image) textures.add(*image, kind, counters);
+    };
+    add(look.texture, TextureKind::kColor);
+    add(look.normal_texture, TextureKind::kNumbers);
+    add(look.roughness_texture, TextureKind::kNumbers);
+    add(look.emission_texture, TextureKind::kColor);
   }
 
   void prepare_ground(const Ground& plan) {
@@ -98,6 +120,7 @@ struct Renderer::State {
       ground->upload(counters);
     }
     const float reach = std::max(plan.fade_end, plan.fade_begin);
+    if (plan.look.pattern != Pattern::kNone) ground->set_rest_of_square(reach);
     ground->world_from_mesh = glm::translate(glm::mat4(1), glm::vec3(plan.centre.x, plan.height, plan.centre.z)) *
                               glm::scale(glm::mat4(1), glm::vec3(reach, 1, reach));
   }
@@ -114,60 +137,27 @@ struct Renderer::State {
     features.lights = static_cast<int>(picture.lights.size());
     for (std::size_t light = 0; light < picture.lights.size(); ++light)
       if (picture.shadow_map[light] >= 0) features.shadow_lights |= 1u << light;
+    features.rectangles = std::any_of(picture.lights.begin(), picture.lights.end(),
+                                      [](const Light& light) { return light.kind == LightKind::kRectangle; });
     features.sky_shadow = picture.sky_map >= 0;
     features.ground = environment.ground.visible;
     features.field = has_fields();
+    features.emission = has_emission();
+    features.panorama = environment.panorama != nullptr;
+    features.panorama_behind = features.panorama && environment.panorama_behind && !environment.transparent;
+    features.shadow_catcher = environment.ground.visible && environment.ground.catches_shadow;
     for (const GpuMesh* mesh : meshes_drawn)
       for (const Look& look : mesh->looks()) features.sheen = features.sheen || look.sheen > 0;
     // What few passes cannot average they must filter.
-    features.shadow_taps = picture.passes == 1 ? 10 : picture.passes < 8 ? 6 : 3;
+    const int passes = options.samples;
+    features.shadow_taps = passes == 1 ? 10 : passes < 8 ? 6 : 3;
     return features;
   }
 
-  void draw_part(const GpuMesh& mesh, const MeshPart& part, const Look& look, float roughness) {
-    const bool texture = look.texture != nullptr && mesh.has_uv() && roughness > 0;
-    const bool field = look.color_map.has_value();
-    const GLuint program = programs.geometry(field     ? GeometryKind::kField
-                                             : texture ? GeometryKind::kTexture
-                                                       : GeometryKind::kPlain);
-    gl.UseProgram(program);
-    if (texture && !field) textures.bind(*look.texture);
-    const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(mesh.world_from_mesh)));
-    const glm::vec4 front(look.color, look.metallic);
-    const glm::vec4 back(look.back_color.value_or(look.color), roughness);
-    gl.ProgramUniformMatrix4fv(program, kWorldFromMeshUniform, 1, GL_FALSE, glm::value_ptr(mesh.world_from_mesh));
-    gl.ProgramUniformMatrix3fv(program, kNormalMatrixUniform, 1, GL_FALSE, glm::value_ptr(normal_matrix));
-    if (field) {
-      const glm::vec4 map(static_cast<float>(*look.color_map), look.shading, 0, 0);
-      gl.ProgramUniform4fv(program, kColorMapUniform, 1, glm::value_ptr(map));
-    } else {
-      gl.ProgramUniform4fv(program, kFrontColorUniform, 1, glm::value_ptr(front));
-      gl.ProgramUniform4fv(program, kBackColorUniform, 1, glm::value_ptr(back));
-      gl.ProgramUniform1f(program, kSheenUniform, look.sheen);
-    }
-    if (look.two_sided)
-      gl.Disable(GL_CULL_FACE);
-    else
-      gl.Enable(GL_CULL_FACE);
-    // The picture is drawn upside down, which turns every triangle round; a mirroring transform does it once more.
-    const bool mirrored = glm::determinant(glm::mat3(mesh.world_from_mesh)) < 0;
-    gl.FrontFace(mirrored ? GL_CCW : GL_CW);
-    mesh.draw(part.first_triangle, part.triangle_count);
-    ++counters.draw_calls;
-  }
-
   void draw_surfaces(const std::vector<const GpuMesh*>& meshes_drawn, const Environment& environment) {
-    // The least roughness that is not taken for the ground's mark.
-    constexpr float kSmoothest = 1.0f / 255;
-    for (const GpuMesh* mesh : meshes_drawn)
-      for (const MeshPart& part : mesh->parts()) {
-        const Look& look = mesh->look(part.look);
-        draw_part(*mesh, part, look, std::clamp(look.roughness, kSmoothest, 1.0f));
-      }
-    if (!environment.ground.visible) return;
-    Look matte;
-    matte.color = environment.ground.look.color;
-    draw_part(*ground, ground->parts()[0], matte, 0);
+    SurfacePass pass(gl, programs, textures, counters, has_emission());
+    for (const GpuMesh* mesh : meshes_drawn) pass.draw_body(*mesh);
+    if (environment.ground.visible) pass.draw_ground(*ground, environment.ground.look);
   }
 
   void draw_shadow_maps(const PassSetup& setup, const std::vector<const GpuMesh*>& meshes_drawn) {
@@ -186,6 +176,7 @@ struct Renderer::State {
 
     gl.NamedBufferSubData(*pass_buffer, 0, sizeof(PassUniforms), &setup.uniforms);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, kPassBinding, *pass_buffer);
+    if (has_emission()) targets.add_emission();
     targets.begin_geometry();
     draw_surfaces(meshes_drawn, environment);
 
@@ -193,6 +184,7 @@ struct Renderer::State {
       targets.add_display();
       color_maps.bind();
     }
+    if (environment.panorama) panorama.bind(*environment.panorama, counters);
     targets.begin_lighting(pass, picture.passes, counters);
     gl.UseProgram(programs.lighting(features_of(picture, meshes_drawn, environment)));
     gl.BindVertexArray(*no_vertices);
@@ -207,6 +199,40 @@ struct Renderer::State {
     return bounds;
   }
 
+  Channels channels(const PictureSetup& picture, const Environment& environment) {
+    const PassSetup setup = set_up_pass(picture, environment, pass_samples(1, 0, 0).front(), 0);
+    gl.NamedBufferSubData(*pass_buffer, 0, sizeof(PassUniforms), &setup.uniforms);
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, kPassBinding, *pass_buffer);
+    targets.begin_geometry();
+    SurfacePass pass(gl, programs, textures, counters, has_emission());
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      pass.note_id(static_cast<std::uint16_t>(std::min<std::size_t>(i + 2, 65535)));
+      if (meshes[i]->visible && meshes[i]->has_positions()) pass.draw_body(*meshes[i]);
+    }
+    pass.note_id(1);
+    if (environment.ground.visible) pass.draw_ground(*ground, environment.ground.look);
+    std::vector<glm::uvec4> words;
+    std::vector<float> depth;
+    targets.read_geometry(words, depth);
+    return channels_from_words(words, depth, options.width, options.height, setup.uniforms.clip_from_world,
+                               picture.camera);
+  }
+
+  /// `half`: sum of the first half of the passes, `sum`: of all `passes`.
+  double error_of(const FloatImage& half, const FloatImage& sum, int passes, const Environment& environment) const {
+    const float weight = 2.0f / static_cast<float>(passes);
+    FloatImage first = half, second = sum;
+    const auto means = [&](std::vector<glm::vec4>& of_first, std::vector<glm::vec4>& of_second) {
+      for (std::size_t i = 0; i < of_first.size(); ++i) {
+        of_second[i] = weight * (of_second[i] - of_first[i]);
+        of_first[i] *= weight;
+      }
+    };
+    means(first.rgba, second.rgba);
+    means(first.display, second.display);
+    return halves_error(first, second, environment);
+  }
+
   PictureSetup set_up(const Camera& camera, std::span<const Light> lights, const Environment& environment) {
     std::vector<Bounds> casters;
     for (const GpuMesh* mesh : drawn())
@@ -216,7 +242,7 @@ struct Renderer::State {
     PictureSetup picture = set_up_picture(fit_near_far(camera, seen), lights, environment, std::move(casters));
     picture.width = options.width;
     picture.height = options.height;
-    picture.passes = options.samples;
+    picture.passes = options.tolerance > 0 ? std::min(options.samples, kFirstPasses) : options.samples;
     picture.shadow_map_size = shadow_map_size(options);
     return picture;
   }
@@ -263,25 +289,65 @@ void Renderer::set_visible(MeshId mesh, bool visible) { state_->mesh(mesh).visib
 
 void Renderer::set_casts_shadow(MeshId mesh, bool casts) { state_->mesh(mesh).casts_shadow = casts; }
 
+void Renderer::set_seed(std::uint32_t seed) { state_->options.seed = seed; }
+
 Bounds Renderer::bounds() const { return state_->world_bounds(); }
 
-FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> lights,
-                                   const Environment& environment) {
+FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> lights, const Environment& environment,
+                                   const Shutter& shutter) {
+  State& s = *state_;
+  s.context.make_current();
+  if (environment.ground.visible) s.prepare_ground(environment.ground);
+  PictureSetup picture;
+  const auto set_up = [&](const Camera& seen_by) {
+    s.upload_changes();
+    picture = s.set_up(seen_by, lights, environment);
+    s.prepare_shadow_maps(picture.shadow_maps);
+  };
+  std::vector<Light> all_lights(lights.begin(), lights.end());
+  if (environment.panorama && environment.panorama->sun()) all_lights.push_back(*environment.panorama->sun());
+  lights = all_lights;
+  if (!shutter) set_up(camera);
+  const std::vector<PassSample> samples = pass_samples(s.options.samples, lights.size(), s.options.seed);
+  const bool measured = s.options.tolerance > 0 && s.options.samples > 1;
+  s.report = {s.options.samples, {}};
+  FloatImage half;  // of the last doubling, a sum
+  int next_look = kFirstPasses / 2;
+  for (int pass = 0; pass < s.options.samples; ++pass) {
+    const PassSample& sample = samples[static_cast<std::size_t>(pass)];
+    if (shutter) set_up(shutter(sample.time));
+    // Each doubling adds passes that stand for smaller parts of the lights.
+    if (measured) picture.passes = std::min(std::max(kFirstPasses, 2 * next_look), s.options.samples);
+    s.draw_pass(picture, environment, sample, pass);
+    const int drawn = pass + 1;
+    if (!measured || drawn != next_look) continue;
+    next_look *= 2;
+    FloatImage sum = s.targets.read(1);
+    if (!half.rgba.empty()) {
+      s.report.samples = drawn;
+      s.report.error = s.error_of(half, sum, drawn, environment);
+      if (*s.report.error <= s.options.tolerance) break;
+      s.report.samples = s.options.samples;
+    }
+    half = std::move(sum);
+  }
+  return s.targets.read(1.0f / static_cast<float>(s.report.samples));
+}
+
+Image Renderer::render(const Camera& camera, std::span<const Light> lights, const Environment& environment,
+                       const Shutter& shutter) {
+  return develop(render_linear(camera, lights, environment, shutter), environment);
+}
+
+Channels Renderer::render_channels(const Camera& camera, const Environment& environment) {
   State& s = *state_;
   s.context.make_current();
   s.upload_changes();
   if (environment.ground.visible) s.prepare_ground(environment.ground);
-  const PictureSetup picture = s.set_up(camera, lights, environment);
-  s.prepare_shadow_maps(picture.shadow_maps);
-  const std::vector<PassSample> samples = pass_samples(picture.passes, picture.lights.size(), s.options.seed);
-  for (int pass = 0; pass < picture.passes; ++pass)
-    s.draw_pass(picture, environment, samples[static_cast<std::size_t>(pass)], pass);
-  return s.targets.read(picture.passes);
+  return s.channels(s.set_up(camera, {}, environment), environment);
 }
 
-Image Renderer::render(const Camera& camera, std::span<const Light> lights, const Environment& environment) {
-  return develop(render_linear(camera, lights, environment), environment);
-}
+const PictureReport& Renderer::last_picture() const { return state_->report; }
 
 const RenderOptions& Renderer::options() const { return state_->options; }
 

@@ -2,14 +2,17 @@
 // Draws meshes with OSMesa into pictures. One Renderer is one GL context; use it on the thread that made it.
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/bounds.h"
 #include "render/camera.h"
+#include "render/channels.h"
 #include "render/counters.h"
 #include "render/environment.h"
 #include "render/film.h"
@@ -21,14 +24,26 @@
 namespace softreel::render {
 
 struct RenderOptions {
-  int width = 1280;         ///< [px], 1 .. 16384
-  int height = 720;         ///< [px], 1 .. 16384
-  int samples = 16;         ///< accumulation passes per picture, 1 .. 65536
-  std::uint32_t seed = 0;   ///< of the sample sequence; the same for every frame, so that still parts do not flicker
+  int width = 1280;        ///< [px], 1 .. 16384
+  int height = 720;        ///< [px], 1 .. 16384
+  int samples = 16;        ///< accumulation passes per picture, 1 .. 65536
+  std::uint32_t seed = 0;  ///< of the sample sequence; the same for every frame, so that still parts do not flicker
+  double tolerance = 0;  ///< > 0: passes until the estimated error (error_estimate.h) is below this [levels of 255], at
+                         ///< least 8 and at most `samples`
   int shadow_map_size = 0;  ///< [texels]; 0: chosen from the picture's size
 };
 
 using MeshId = std::size_t;
+
+/// Moves what moves while the shutter is open, to `time` (0 it opens .. 1 it closes), and says where the camera is
+/// then.
+using Shutter = std::function<Camera(float time)>;
+
+/// How the last picture was made.
+struct PictureReport {
+  int samples = 0;
+  std::optional<double> error;  ///< estimated, RMS [levels of 255]; only with a tolerance
+};
 
 class Renderer {
  public:
@@ -57,13 +72,22 @@ class Renderer {
   /// True at first. A ground quad need not cast.
   void set_casts_shadow(MeshId mesh, bool casts);
 
+  /// Of the pictures from now on.
+  void set_seed(std::uint32_t seed);
+
   /// Box around all visible meshes as they are now, world space.
   Bounds bounds() const;
 
-  /// One picture. The same input gives the same bits on one machine, for any thread count.
-  Image render(const Camera& camera, std::span<const Light> lights, const Environment& environment);
+  /// One picture. The same input gives the same bits on one machine, for any thread count. `shutter`: for motion blur,
+  /// called before each pass; empty: everything stands still.
+  Image render(const Camera& camera, std::span<const Light> lights, const Environment& environment,
+               const Shutter& shutter = {});
   /// The same before tone curve and background: see film.h.
-  FloatImage render_linear(const Camera& camera, std::span<const Light> lights, const Environment& environment);
+  FloatImage render_linear(const Camera& camera, std::span<const Light> lights, const Environment& environment,
+                           const Shutter& shutter = {});
+  const PictureReport& last_picture() const;
+  /// What is seen in the middle of each pixel, as things stand now.
+  Channels render_channels(const Camera& camera, const Environment& environment);
 
   const RenderOptions& options() const;
   const RenderCounters& counters() const;

@@ -74,14 +74,17 @@ glm::vec2 disc_from_square(const glm::vec2& square) {
 
 std::vector<PassSample> pass_samples(int count, std::size_t light_count, std::uint32_t seed) {
   std::vector<PassSample> passes(static_cast<std::size_t>(count));
-  for (PassSample& pass : passes) pass.lights.assign(light_count, glm::vec2(0));
+  for (PassSample& pass : passes) pass.lights.assign(light_count, glm::vec2(0.5f));
   if (count == 1) return passes;
+  constexpr std::uint32_t kFirstLight = 2, kLens = 1000, kTime = 1001;  // dimensions: each its own scrambling
   for (std::uint32_t i = 0; i < passes.size(); ++i) {
     const glm::vec2 pixel = sobol_point(i, combine(seed, 0));
     passes[i].pixel = {tent(pixel.x), tent(pixel.y)};
-    passes[i].sky = disc_from_square(sobol_point(i, combine(seed, 1)));
+    passes[i].sky = sobol_point(i, combine(seed, 1));
+    passes[i].lens = disc_from_square(sobol_point(i, combine(seed, kLens)));
+    passes[i].time = sobol_point(i, combine(seed, kTime)).x;
     for (std::uint32_t light = 0; light < light_count; ++light)
-      passes[i].lights[light] = disc_from_square(sobol_point(i, combine(seed, 2 + light)));
+      passes[i].lights[light] = sobol_point(i, combine(seed, kFirstLight + light));
   }
   return passes;
 }

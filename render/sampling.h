@@ -6,11 +6,13 @@
 
 namespace softreel::render {
 
-/// What one pass draws. Lens and shutter get their places here when they come.
+/// What one pass draws.
 struct PassSample {
   glm::vec2 pixel{0};  ///< offset from the pixel's centre [px], already distributed as the pixel filter (a tent, -1..1)
-  std::vector<glm::vec2> lights;  ///< per light: point on the unit disc
-  glm::vec2 sky{0};               ///< point on the unit disc, under the hemisphere: cosine distributed
+  std::vector<glm::vec2> lights;  ///< per light: point in the unit square
+  glm::vec2 sky{0.5f};            ///< point in the unit square
+  glm::vec2 lens{0};              ///< point on the unit disc
+  float time = 1;                 ///< of the shutter: 0 it opens .. 1 it closes
 };
 
 /// Point `index` of the (0,2)-sequence of Sobol, Owen-scrambled by `seed`: every aligned block of 2^k points is
@@ -22,7 +24,8 @@ glm::vec2 sobol_point(std::uint32_t index, std::uint32_t seed);
 /// Between Disk and Square", J. Graphics Tools 2(3), 1997).
 glm::vec2 disc_from_square(const glm::vec2& square);
 
-/// All passes of a picture. One pass looks through the middle of everything; the same arguments give the same points.
+/// All passes of a picture. One pass looks through the middle of everything as the shutter closes; the same arguments
+/// give the same points, and fewer passes are the beginning of more (but for one alone).
 std::vector<PassSample> pass_samples(int count, std::size_t light_count, std::uint32_t seed);
 
 }  // namespace softreel::render

@@ -6,6 +6,9 @@ const char* const kLightingMain = R"(
 layout(binding = 3) uniform usampler2D surface_words;  // shader_geometry.cpp
 layout(binding = 4) uniform sampler2D surface_depth;
 layout(location = 0) out vec4 result;
+#ifdef EMISSION
+layout(binding = 10) uniform sampler2D emitted;
+#endif
 #ifdef FIELD
 layout(binding = 5) uniform sampler2D color_maps;
 layout(location = 1) out vec4 display;  // in the picture's own colours: no exposure, no tone curve
@@ -33,7 +36,7 @@ vec3 unpack_color(uint word) {
 Surface surface_here(uvec4 words, vec3 position) {
   Surface s;
   s.position = position;
-  s.view = normalize(pass.camera.xyz - position);
+  s.view = normalize(pass.camera.xyz - pass.picture.z * position);
   s.normal = unpack_direction(words.x);
   // Where an interpolated normal turns away from the viewer, as at silhouettes, it is seen edge-on.
   s.n_dot_v = max(dot(s.normal, s.view), 1e-3);
@@ -52,6 +55,10 @@ Surface surface_here(uvec4 words, vec3 position) {
   return s;
 }
 
+#ifdef SHADOW_CATCHER
+vec3 unshadowed = vec3(0);  // what there would be without shadows
+#endif
+
 vec3 lit_by(Surface s, vec3 facet, LightData light, const int map) {
   vec3 to_light = light.place.xyz;
   float falloff = 1;
@@ -63,6 +70,9 @@ vec3 lit_by(Surface s, vec3 facet, LightData light, const int map) {
     distance2 = max(distance2, light.extra.y * light.extra.y);
     if (light.color.w > 0) falloff = light.color.w / distance2;
     widen *= inversesqrt(distance2);
+#ifdef RECTANGLES
+    falloff *= mix(1.0, max(-dot(to_light, light.facing.xyz), 0), light.facing.w);
+#endif
   }
   float n_dot_l = dot(s.normal, to_light);
   n_dot_l = max(n_dot_l, 0);
@@ -78,27 +88,34 @@ vec3 lit_by(Surface s, vec3 facet, LightData light, const int map) {
 #ifdef SHEEN
   reflected += sheen_term(s, to_light, n_dot_l);
 #endif
-  return light.color.rgb * (falloff * visible * n_dot_l) * reflected;
+  vec3 arriving = light.color.rgb * (falloff * n_dot_l);
+#ifdef SHADOW_CATCHER
+  unshadowed += arriving * reflected;
+#endif
+  return arriving * visible * reflected;
 }
 
 vec3 lit_by_sky(Surface s, vec3 facet) {
   vec3 glow = s.diffuse * sky_irradiance(s.normal);
 #ifdef SHEEN
   float rim = 1 - s.n_dot_v;
-  glow += 0.5 * s.sheen * rim * rim * rim * pass.sky.rgb;
+  glow += 0.5 * s.sheen * rim * rim * rim * sky_irradiance(s.normal);
 #endif
   vec3 gloss = s.albedo_specular * sky_radiance(reflect(-s.view, s.normal), s.roughness);
+#ifdef SHADOW_CATCHER
+  unshadowed += glow + gloss;
+#endif
 #ifdef SKY_SHADOW
-  // What the bodies hide of the sky is taken away from the exact unshadowed light. The directions are cosine distributed about the
-  // vertical: the estimate for another normal is weighted by the ratio of the cosines.
-  vec3 up = pass.sky_direction.xyz;
-  float n_dot_up = dot(s.normal, up);
-  if (n_dot_up > 0) {
-    vec3 plane = dot(facet, up) > 0 ? facet : s.normal;
-    float hidden = 1 - light_visible(SKY_SHADOW, s.position, plane, clamp(dot(plane, up), 0, 1));
-    float weight = min(n_dot_up / max(up.y, 0.1), 2.0);
-    glow -= hidden * weight * s.diffuse * pass.sky.rgb;
-    gloss *= 1 - 0.7 * hidden * min(weight, 1);
+  // What the bodies hide of the sky is taken away from the exact unshadowed light: one direction in each pass stands for all.
+  vec3 towards = pass.sky_direction.xyz;
+  float n_dot_l = dot(s.normal, towards);
+  if (n_dot_l > 0) {
+    vec3 plane = dot(facet, towards) > 0 ? facet : s.normal;
+    float hidden = 1 - light_visible(SKY_SHADOW, s.position, plane, clamp(dot(plane, towards), 0, 1));
+    // In the mean over all passes no more than there is; the gloss loses as large a part as the matte light.
+    vec3 taken = hidden * n_dot_l * pass.sky_part.rgb;
+    glow -= s.diffuse * taken;
+    gloss *= 1 - 0.7 * hidden * min(n_dot_l * pass.sky_direction.w, 1);
   }
 #endif
   return glow + gloss;
@@ -124,8 +141,23 @@ void main() {
 #ifdef GROUND
   if (s.matte) alpha = 1 - smoothstep(pass.ground.z, pass.ground.w, distance(s.position.xz, pass.ground.xy));
 #endif
+#ifdef EMISSION
+  radiance += texelFetch(emitted, pixel, 0).rgb;
+#endif
   // Far above white a single pass only adds sparkle.
-  result = covered ? vec4(min(radiance, vec3(32)) * alpha, alpha) : vec4(0);
+  radiance = min(radiance, vec3(32));
+#ifdef SHADOW_CATCHER
+  if (s.matte) {
+    const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
+    alpha *= clamp(1 - dot(radiance, kLuminance) / max(dot(unshadowed, kLuminance), 1e-6), 0, 1);
+    radiance = vec3(0);
+  }
+#endif
+  result = covered ? vec4(radiance * alpha, alpha) : vec4(0);
+#ifdef PANORAMA_BEHIND
+  vec3 behind = panorama_at(normalize(pass.picture.z * at.xyz / at.w - pass.camera.xyz), 0);
+  result = vec4(result.rgb + behind * (1 - result.a), 1);
+#endif
 #ifdef FIELD
   display = vec4(0);
   if (field) {

@@ -60,22 +60,6 @@ float sheen_term(Surface s, vec3 to_light, float n_dot_l) {
   return kPi * s.sheen * distribution / (4 * (n_dot_l + s.n_dot_v - n_dot_l * s.n_dot_v) + 1e-4);
 }
 #endif
-
-// A matte surface under a sky above and a glow from below.
-vec3 sky_irradiance(vec3 n) { return mix(pass.ground_light.rgb, pass.sky.rgb, 0.5 + 0.5 * n.y); }
-
-// What a surface of that roughness mirrors from direction r: brighter towards the horizon, as skies are, with
-// a broad soft box overhead that gives metals and gloss something to show.
-vec3 sky_radiance(vec3 r, float roughness) {
-  float blur = mix(0.12, 1.0, roughness);
-  float up = smoothstep(-blur, blur, r.y);
-  float width = 0.02 + blur * blur;
-  float horizon = width / (width + 2 * r.y * r.y) * (1 - roughness);
-  float box = smoothstep(0.7 - 0.9 * blur, 0.7 + 0.9 * blur, r.y) * (1 - 0.8 * roughness);
-  vec3 above = pass.sky.rgb * (0.85 + 0.5 * horizon + 0.9 * box);
-  vec3 below = pass.ground_light.rgb * (1 + 0.2 * horizon);
-  return mix(mix(below, above, up), sky_irradiance(r), roughness * roughness);
-}
 )";
 
 }  // namespace softreel::render

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "render/panorama.h"
 #include "render/pass_uniforms.h"
 #include "render/shader_parts.h"
 
@@ -12,7 +13,8 @@ namespace softreel::render {
 namespace {
 
 std::string header() {
-  return fmt::format("#version 450 core\n#define MAX_LIGHTS {}\n#define MAX_SHADOWS {}\n", kMaxLights, kMaxShadowMaps);
+  return fmt::format("#version 450 core\n#define MAX_LIGHTS {}\n#define MAX_SHADOWS {}\n#define PANORAMA_LEVELS {}\n",
+                     kMaxLights, kMaxShadowMaps, Panorama::kLevels);
 }
 
 /// One call per light with constant indices: llvmpipe reads a uniform array at a computed index lane by lane, which
@@ -30,9 +32,13 @@ std::string add_lights(const LightingFeatures& features) {
 constexpr const char* kGeometryVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-#ifdef TEXTURE
+#ifdef UV
 layout(location = 2) in vec2 uv;
 out vec2 texture_uv;
+#endif
+#ifdef PATTERN
+layout(location = 4) in vec3 rest;
+out vec3 rest_position;
 #endif
 #ifdef FIELD
 layout(location = 3) in float value;
@@ -46,7 +52,10 @@ void main() {
   vec4 world = world_from_mesh * vec4(position, 1);
   world_position = world.xyz;
   world_normal = normal_matrix * normal;
-#ifdef TEXTURE
+#ifdef PATTERN
+  rest_position = rest;
+#endif
+#ifdef UV
   texture_uv = vec2(uv.x, 1 - uv.y);  // pictures are stored from top to bottom
 #endif
 #ifdef FIELD
@@ -56,8 +65,22 @@ void main() {
 }
 )";
 
-const char* define_of(GeometryKind kind) {
-  return kind == GeometryKind::kTexture ? "#define TEXTURE\n" : kind == GeometryKind::kField ? "#define FIELD\n" : "";
+std::string defines_of(const GeometryFeatures& f) {
+  std::string text;
+  const auto define = [&](bool wanted, const char* name) {
+    if (wanted) text += fmt::format("#define {}\n", name);
+  };
+  define(f.color_texture, "TEXTURE");
+  define(f.field, "FIELD");
+  define(f.normal_texture, "NORMAL_TEXTURE");
+  define(f.roughness_texture, "ROUGHNESS_TEXTURE");
+  define(f.pattern, "PATTERN");
+  define(f.emission, "EMISSION");
+  define(f.emission_texture, "EMISSION_TEXTURE");
+  define(f.color_texture || f.normal_texture || f.roughness_texture || f.emission_texture, "UV");
+  define(f.wire, "WIRE");
+  define(f.id, "ID");
+  return text;
 }
 
 constexpr const char* kShadowVertex = R"(
@@ -72,11 +95,13 @@ void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3
 
 }  // namespace
 
-std::string geometry_vertex_source(GeometryKind kind) {
-  return header() + define_of(kind) + kPassBlock + kGeometryVertex;
+std::string geometry_vertex_source(const GeometryFeatures& features) {
+  return header() + defines_of(features) + kPassBlock + kGeometryVertex;
 }
 
-std::string geometry_fragment_source(GeometryKind kind) { return header() + define_of(kind) + kGeometryMain; }
+std::string geometry_fragment_source(const GeometryFeatures& features) {
+  return header() + defines_of(features) + kGeometryMain;
+}
 
 std::string lighting_fragment_source(const LightingFeatures& features) {
   std::string source = header();
@@ -87,10 +112,15 @@ std::string lighting_fragment_source(const LightingFeatures& features) {
   define(features.shadow_lights != 0, "SHADOWS");
   define(features.shadow_lights != 0 || features.sky_shadow, "SHADOW_MAPS");
   if (features.sky_shadow) source += fmt::format("#define SKY_SHADOW {}\n", std::popcount(features.shadow_lights));
+  define(features.rectangles, "RECTANGLES");
   define(features.sheen, "SHEEN");
   define(features.field, "FIELD");
   define(features.ground, "GROUND");
-  return source + kPassBlock + kReflectance + kShadowLookup + kLightingMain;
+  define(features.emission, "EMISSION");
+  define(features.panorama, "PANORAMA");
+  define(features.panorama_behind, "PANORAMA_BEHIND");
+  define(features.shadow_catcher, "SHADOW_CATCHER");
+  return source + kPassBlock + kSky + kReflectance + kShadowLookup + kLightingMain;
 }
 
 std::string shadow_vertex_source() { return header() + kShadowVertex; }

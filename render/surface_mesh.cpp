@@ -46,6 +46,8 @@ void check_mesh(const SurfaceMesh& mesh, std::size_t look_count) {
   check_normal_groups(mesh);
   if (!mesh.uv.empty() && mesh.uv.size() != vertices)
     refuse(fmt::format("{} texture coordinates for {} vertices", mesh.uv.size(), vertices));
+  if (!mesh.rest.empty() && mesh.rest.size() != vertices)
+    refuse(fmt::format("{} places at rest for {} vertices", mesh.rest.size(), vertices));
   for (const glm::uvec3& triangle : mesh.triangles)
     for (int corner = 0; corner < 3; ++corner)
       if (triangle[corner] >= vertices) refuse(fmt::format("vertex {} of {}", triangle[corner], vertices));

@@ -23,6 +23,7 @@ struct SurfaceMesh {
   std::vector<std::uint32_t> normal_of;    ///< per render vertex: normal group; one smooth normal per group. Groups are
                                            ///< numbered from 0 without gaps. Empty: every position is one group
   std::vector<glm::vec2> uv;          ///< per render vertex, v upwards (OpenGL, OBJ); empty: no texture coordinates
+  std::vector<glm::vec3> rest;        ///< per render vertex: place in the body's own space at rest [m]; empty: none
   std::vector<glm::uvec3> triangles;  ///< render vertices, counter-clockwise seen from the front
   std::vector<MeshPart> parts;        ///< empty: all triangles wear look 0
 };

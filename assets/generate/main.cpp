@@ -8,6 +8,7 @@
 #include "assets/generate/disc.h"
 #include "assets/generate/models.h"
 #include "assets/generate/polygonize.h"
+#include "assets/generate/studio.h"
 #include "assets/surface_diagnosis.h"
 
 namespace {
@@ -41,6 +42,7 @@ int main(int argc, char** argv) {
     }
     const sim::TriangleMesh drumhead = generate::disc(0.5, 32);
     assets::write_obj(std::filesystem::path(argv[1]) / "disc.obj", drumhead.vertices, drumhead.triangles);
+    generate::write_studio(std::filesystem::path(argv[1]) / "studio.hdr");
     return good ? 0 : 6;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());

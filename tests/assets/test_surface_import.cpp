@@ -76,8 +76,8 @@ TEST_CASE("An OBJ keeps seams for the picture, welds for the physics, and brings
   REQUIRE(s.parts[0].base_color);
   CHECK((*s.parts[0].base_color)[0] == doctest::Approx(0.8));
   CHECK(*s.parts[0].roughness == doctest::Approx(0.5));  // (2 / 32)^(1/4)
-  CHECK(s.parts[0].texture_file.filename() == "skin.png");
-  CHECK(s.parts[0].texture_file.is_absolute());
+  CHECK(s.parts[0].texture.file.filename() == "skin.png");
+  CHECK(s.parts[0].texture.file.is_absolute());
   CHECK(s.missing_textures == std::vector<std::string>{"none.png"});
 }
 

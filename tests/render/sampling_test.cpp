@@ -51,12 +51,30 @@ TEST_CASE("the sequence measures edges better than random points, already with f
   }
 }
 
+TEST_CASE("fewer passes are the beginning of more, in every dimension, and dimensions do not march in step") {
+  const std::vector<PassSample> few = pass_samples(4, 2, 7), many = pass_samples(64, 2, 7);
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    CHECK(few[i].pixel == many[i].pixel);
+    CHECK(few[i].lights == many[i].lights);
+    CHECK(few[i].lens == many[i].lens);
+    CHECK(few[i].time == many[i].time);
+  }
+  // Independent dimensions have a correlation of at most 3 / sqrt(64) in all but one case of 400.
+  double correlation = 0;
+  for (const PassSample& s : many)
+    correlation += (static_cast<double>(s.time) - 0.5) * (static_cast<double>(s.lights[0].x) - 0.5);
+  CHECK(std::abs(correlation / 64 * 12) < 3 / std::sqrt(64.0));
+  CHECK(many[5].lights[0] != many[5].lights[1]);
+}
+
 TEST_CASE("one pass looks through the middle of everything") {
   const std::vector<PassSample> passes = pass_samples(1, 2, 99);
   REQUIRE(passes.size() == 1);
   CHECK(passes[0].pixel == glm::vec2(0));
   REQUIRE(passes[0].lights.size() == 2);
-  CHECK(passes[0].lights[1] == glm::vec2(0));
+  CHECK(passes[0].lights[1] == glm::vec2(0.5f));
+  CHECK(passes[0].lens == glm::vec2(0));
+  CHECK(passes[0].time == 1);
 }
 
 TEST_CASE("samples follow their distributions: tent in the pixel, uniform on discs") {
@@ -66,9 +84,9 @@ TEST_CASE("samples follow their distributions: tent in the pixel, uniform on dis
   glm::dvec2 mean(0);
   for (const PassSample& pass : passes) {
     CHECK(std::max(std::abs(pass.pixel.x), std::abs(pass.pixel.y)) <= 1);
-    CHECK(glm::length(pass.lights[0]) <= 1.000001f);
+    CHECK(glm::length(pass.lens) <= 1.000001f);
     pixel2 += pass.pixel.x * pass.pixel.x / 1024;
-    disc2 += glm::dot(pass.lights[0], pass.lights[0]) / 1024;
+    disc2 += glm::dot(pass.lens, pass.lens) / 1024;
     mean += glm::dvec2(pass.pixel) / 1024.0;
   }
   CHECK(pixel2 == doctest::Approx(1.0 / 6).epsilon(0.02));
