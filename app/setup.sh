@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what is missing of a group of app/packages.txt:  sh app/setup.sh [build|format]
+# Installs what is missing of a group of app/packages.txt:  sh app/setup.sh [build|test|format]
 # Asks nothing. When nothing is missing, apt is not called.
 set -eu
 group=${1:-build}

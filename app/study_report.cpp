@@ -8,9 +8,9 @@ namespace softreel::app {
 namespace {
 
 constexpr const char* kStyle = R"(
-body { font: 15px/1.5 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; margin: 2em auto; max-width: 1100px; padding: 0 1em; }
+body { font: 15px/1.5 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; margin: 2em auto; max-width: 1100px; padding: 0 1em; overflow-wrap: anywhere; }
 h1 { font-size: 1.5em; margin-bottom: 0.2em; } h2 { font-size: 1.15em; margin-top: 2em; }
-pre { background: #f4f5f6; padding: 0.8em 1em; border-radius: 4px; overflow-x: auto; font-size: 13px; }
+pre { background: #f4f5f6; padding: 0.8em 1em; border-radius: 4px; white-space: pre-wrap; font-size: 13px; }
 svg { max-width: 100%; height: auto; }
 .table { overflow-x: auto; } table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
 th, td { padding: 0.25em 0.7em; border-bottom: 1px solid #e3e3e3; text-align: right; white-space: nowrap; }

@@ -9,6 +9,7 @@ cd "$(dirname "$0")/.."
 preset=${PRESET:-release}
 
 sh app/setup.sh build
+sh app/setup.sh test
 cmake --preset "$preset" ${SOFTREEL_WERROR:+-DSOFTREEL_WERROR="$SOFTREEL_WERROR"}
 cmake --build --preset "$preset" --parallel "$(nproc)"
 ctest --test-dir "build/$preset" --output-on-failure --parallel "$(nproc)" -LE '^bench$' "$@"
