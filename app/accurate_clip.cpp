@@ -36,7 +36,7 @@ double least_steps(const assets::Scene& scene, const Shapes& shapes) {
   double least = time.substeps > 1 ? time.substeps : 0;
   if (sim::is_implicit(time.integrator)) return least;
   const ClipWorld world(scene, shapes);
-  least = std::max(least, field_steps_per_frame(scene, world.fields()));
+  if (!scene.fields.empty()) least = std::max(least, field_steps_per_frame(scene, world.fields()));
   if (!world.bodies()) return least;
   const sim::Model model = build_model(scene, shapes);
   sim::Linearization linear(model, 1 / time.fps);

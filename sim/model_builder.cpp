@@ -4,11 +4,13 @@
 #include <algorithm>
 
 #include "sim/bending.h"
-#include "sim/body_forces.h"
 #include "sim/contact/surface_contact.h"
-#include "sim/mass.h"
+#include "sim/drag.h"
+#include "sim/gravity.h"
+#include "sim/mass_correction.h"
 #include "sim/membrane.h"
 #include "sim/solid.h"
+#include "sim/spring_damping.h"
 #include "sim/stiffness_damping.h"
 #include "sim/stiffness_scale.h"
 
