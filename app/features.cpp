@@ -83,9 +83,11 @@ const std::vector<Feature> kFeatures = {
     {.name = "tetrahedralization (TetGen)",
      .code = {"assets/tetrahedralize", "assets/tetgen_task", "assets/tet_cache"},
      .brings = {"tetrahedral solids"},
+     .against = "tetrahedral solids",
      .scene = "[[soft]]\nmesh = \"pyramid.obj\"\nmaterial = { young = 1e4 }\n",
      .files = {{"pyramid.obj", kPyramid}},
-     .stats = {"seconds.tetrahedralize"}},
+     .stats = {"seconds.tetrahedralize"},
+     .whole_run = true},
     {.name = "bending", .code = {"sim/bending"}, .overrides = {"cloth.sheet.material.bending=1e-5"}},
     {.name = "springs", .code = {"sim/springs"}, .scene = kNet},
     {.name = "points", .code = {"app/balls_and_rods"}, .brings = {"springs"}, .scene = "[[springs]]\nchain = {}\n"},
@@ -95,6 +97,7 @@ const std::vector<Feature> kFeatures = {
     {.name = "attachments",
      .code = {"sim/attachment", "sim/nearest_point"},
      .brings = {"points", "springs"},
+     .against = "points",
      .scene = "[[springs]]\nname = \"rope\"\nchain = { from = [0, 0, 0], to = [0, -1, 0] }\n"
               "[[attach]]\nbodies = [\"rope\", \"sheet\"]\nnear = 0.01\n"},
     {.name = "wind", .code = {"sim/wind"}, .scene = "[wind]\nvelocity = [1, 0, 0]\n"},
@@ -103,14 +106,16 @@ const std::vector<Feature> kFeatures = {
     {.name = "damping of springs",
      .code = {"sim/spring_damping"},
      .brings = {"springs"},
+     .against = "springs",
      .overrides = {"cloth.net.spring_damping=1e-3"},
      .scene = kNet},
     {.name = "pins",
      .code = {"softreel::sim::Pins::place", "softreel::sim::Pins::drive"},
      .overrides = {"cloth.sheet.pins=[{vertices=[0]}]"}},
     {.name = "driven motion",
-     .code = {"softreel::sim::Motion::"},
+     .code = {"softreel::sim::Motion::at", "softreel::sim::Motion::Motion("},
      .brings = {"pins"},
+     .against = "pins",
      .overrides = {"cloth.sheet.pins=[{vertices=[0],motion=[{t=0},{t=0.1,translate=[0,0.01,0]}]}]"}},
     {.name = "contact with colliders",
      .code = {"sim/collider", "sim/collider_contact"},
@@ -120,6 +125,7 @@ const std::vector<Feature> kFeatures = {
     {.name = "friction",
      .code = {"sim/collider_friction"},
      .brings = {"contact with colliders"},
+     .against = "contact with colliders",
      .overrides = {"cloth.sheet.translate=[0,0.01,0]"},
      .scene = "[[collider]]\nfriction = 0.4\n",
      .stats = {"simulate_seconds.contact"}},
@@ -143,13 +149,18 @@ const std::vector<Feature> kFeatures = {
     {.name = "stability before the run",
      .code = {"app/forecast", "sim/linearization", "sim/lanczos"},
      .brings = {"Hessians and a linear solver"},
-     .checked = true},
+     .checked = true,
+     .whole_run = true},
     {.name = "estimate of the error in time",
      .code = {"sim/adaptive_plan", "sim/adaptive_figures", "app/accurate_clip"},
      .overrides = {"time.accuracy=\"1 cm\""},
-     .stats = {"accuracy"}},
-    {.name = "exported meshes", .code = {"app/export_clip", "assets/export_ply"}, .options = {"--export", "ply"}},
-    {.name = "stats", .code = {"softreel::app::write_stats"}, .options = {"--stats", "stats.json"}},
+     .stats = {"accuracy"},
+     .whole_run = true},
+    {.name = "exported meshes",
+     .code = {"app/export_clip", "assets/export_ply"},
+     .options = {"--export", "ply"},
+     .whole_run = true},
+    {.name = "stats", .code = {"softreel::app::write_stats"}, .options = {"--stats", "@stats.json"}},
     {.name = "shadow maps",
      .code = {"render/shadow_maps", "render/shadow_frustum"},
      .overrides = {"light.1.shadow=true"},
@@ -161,8 +172,9 @@ const std::vector<Feature> kFeatures = {
      .stats = {"render_counters.accumulation_buffers"},
      .drawn = true},
     {.name = "colour bars",
-     .code = {"app/drawn_field", "render/color_bar", "render/text"},
+     .code = {"render/color_bar", "render/text"},
      .brings = {"scalar fields", "Hessians and a linear solver"},
+     .against = "scalar fields",
      .scene = "[[field]]\ngrid = { cells = [4, 4] }\nfixed = [{ boundary = true, value = \"x\" }]\n",
      .drawn = true},
     {.name = "textures",
@@ -171,7 +183,7 @@ const std::vector<Feature> kFeatures = {
      .files = {{"square.obj", kSquare}, {"checks.ppm", kChecks}},
      .stats = {"render_counters.textures"},
      .drawn = true},
-    {.name = "video", .code = {"app/video"}, .options = {"--video", "clip.mp4"}, .drawn = true},
+    {.name = "video", .code = {"app/video"}, .options = {"--video", "@clip.mp4"}, .drawn = true, .whole_run = true},
 };
 
 }  // namespace
@@ -197,7 +209,9 @@ std::vector<std::string> feature_arguments(const Feature* feature, const std::fi
     arguments.emplace_back("--set");
     arguments.emplace_back(key);
   }
-  arguments.insert(arguments.end(), feature->options.begin(), feature->options.end());
+  for (const std::string_view option : feature->options)
+    arguments.push_back(option.starts_with('@') ? (scene.parent_path() / option.substr(1)).string()
+                                                : std::string(option));
   return arguments;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a scene or a command may ask for beyond the least: one table for all that measures it (softreel bench --features,
-// tests/needs).
+// What a scene or a command may ask for beyond the least: one table for all that measures it (softreel bench
+// --features, tests/needs).
 #include <filesystem>
 #include <span>
 #include <string>
@@ -17,14 +17,18 @@ struct Feature {
   /// beginning of a function's full name (softreel::sim::Motion::).
   std::vector<std::string_view> code;
   std::vector<std::string_view> brings{};     ///< other features that it is never without
+  std::string_view against{};                 ///< whose scene shows what it costs; empty: the base scene
   std::vector<std::string_view> overrides{};  ///< of the base scene, as --set
   std::string_view scene{};                   ///< TOML that follows the base scene
-  std::vector<std::string_view> options{};    ///< of the command line
+  std::vector<std::string_view> options{};    ///< of the command line; @ at the front: beside the scene
   std::vector<std::pair<std::string_view, std::string_view>> files{};  ///< beside the scene: name, content
-  std::vector<std::string_view> without{};    ///< features of the base scene that it replaces
-  std::vector<std::string_view> stats{};      ///< keys of --stats that are there only with it (energy.contact)
-  bool drawn = false;                         ///< seen by `render`, not by `simulate`
-  bool checked = false;                       ///< the run is not forced: its stability is looked at before it begins
+  std::vector<std::string_view> without{};                             ///< features of the base scene that it replaces
+  std::vector<std::string_view> stats{};  ///< keys of --stats that are there only with it (energy.contact)
+  bool drawn = false;                     ///< seen by `render`, not by `simulate`
+  bool checked = false;                   ///< the run is not forced: its stability is looked at before it begins
+  bool whole_run = false;                 ///< its cost is one of a run, not of a step or a frame
+
+  bool in_base() const { return scene.empty() && overrides.empty() && options.empty() && !checked; }
 };
 
 /// A sheet in free fall, stepped explicitly, drawn with one sample and no shadow.

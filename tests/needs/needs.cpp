@@ -1,4 +1,5 @@
-// Runs the scene of each optional feature (app/features.h), one after the other, for valgrind to count what is executed.
+// Runs the scene of each optional feature (app/features.h), one after the other, for valgrind to count what is
+// executed.
 //   needs --list             the table of features, as JSON
 //   needs FOLDER base|all    runs the base scene (explicit, implicit), or all others too, in FOLDER/NUMBER; callgrind
 //                            dumps after each
