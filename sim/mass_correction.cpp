@@ -1,4 +1,4 @@
-#include "sim/mass_correction.h"
+#include "sim/mass.h"
 
 #include "sim/element_term.h"
 

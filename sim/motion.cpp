@@ -14,8 +14,9 @@ Eigen::Matrix3d euler_xyz(const Eigen::Vector3d& degrees) {
 
 Motion::Motion(std::vector<MotionKey> keys, const Eigen::Vector3d& pivot) : keys_(std::move(keys)), pivot_(pivot) {}
 
-Eigen::Isometry3d Motion::moving_pose(double t) const {
+Eigen::Isometry3d Motion::pose(double t) const {
   Eigen::Isometry3d world = Eigen::Isometry3d::Identity();
+  if (keys_.empty()) return world;
   const MotionKey now = at(t);
   world.linear() = euler_xyz(now.rotate_deg);
   world.translation() = pivot_ + now.translate - world.linear() * pivot_;
@@ -31,7 +32,7 @@ MotionKey Motion::at(double t) const {
   return {t, a.translate + s * (b.translate - a.translate), a.rotate_deg + s * (b.rotate_deg - a.rotate_deg)};
 }
 
-Eigen::Vector3d Motion::moving_velocity(double t, const Eigen::Vector3d& at_rest) const {
+Eigen::Vector3d Motion::velocity(double t, const Eigen::Vector3d& at_rest) const {
   using Eigen::Vector3d;
   // The key frames around t: a.t < t <= b.t.
   const auto b =
@@ -47,7 +48,8 @@ Eigen::Vector3d Motion::moving_velocity(double t, const Eigen::Vector3d& at_rest
   return translation + omega.cross(euler_xyz(angles) * (at_rest - pivot_));
 }
 
-double Motion::moving_turn(double from, double to) const {
+double Motion::turn(double from, double to) const {
+  if (keys_.empty()) return 0;
   double sum = 0;
   Eigen::Vector3d last = at(from).rotate_deg;
   const auto go_to = [&](const Eigen::Vector3d& angles) {

@@ -24,18 +24,13 @@ class Motion {
 
   bool still() const { return keys_.empty(); }
   /// world_at_t_from_world_at_rest
-  Eigen::Isometry3d pose(double t) const { return still() ? Eigen::Isometry3d::Identity() : moving_pose(t); }
+  Eigen::Isometry3d pose(double t) const;
   /// Velocity at time t of a point given where it is at rest [m/s]; at a key frame, that of before it.
-  Eigen::Vector3d velocity(double t, const Eigen::Vector3d& at_rest) const {
-    return still() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : moving_velocity(t, at_rest);
-  }
+  Eigen::Vector3d velocity(double t, const Eigen::Vector3d& at_rest) const;
   /// An upper bound of the turn between two times: the sum over the axes of how far each angle goes [deg].
-  double turn(double from, double to) const { return still() ? 0 : moving_turn(from, to); }
+  double turn(double from, double to) const;
 
  private:
-  Eigen::Isometry3d moving_pose(double t) const;
-  Eigen::Vector3d moving_velocity(double t, const Eigen::Vector3d& at_rest) const;
-  double moving_turn(double from, double to) const;
   MotionKey at(double t) const;
 
   std::vector<MotionKey> keys_;

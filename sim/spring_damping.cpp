@@ -39,8 +39,8 @@ struct SpringDampingKernel {
 
 std::unique_ptr<EnergyTerm> make_spring_damping(const std::vector<Spring>& springs, double damping) {
   SpringDampingKernel kernel{damping, std::vector<Eigen::Vector3d>(springs.size(), Eigen::Vector3d::Zero())};
-  return std::make_unique<ElementTerm<SpringDampingKernel>>("spring damping", EnergyKind::kDissipation, spring_stencils(springs),
-                                                            std::move(kernel));
+  return std::make_unique<ElementTerm<SpringDampingKernel>>("spring damping", EnergyKind::kDissipation,
+                                                            spring_stencils(springs), std::move(kernel));
 }
 
 }  // namespace softreel::sim
