@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -36,7 +37,7 @@ double least_steps(const assets::Scene& scene, const Shapes& shapes) {
   double least = time.substeps > 1 ? time.substeps : 0;
   if (sim::is_implicit(time.integrator)) return least;
   const ClipWorld world(scene, shapes);
-  least = std::max(least, field_steps_per_frame(scene, world.fields()));
+  if (!scene.fields.empty()) least = std::max(least, field_steps_per_frame(scene, world.fields()));
   if (!world.bodies()) return least;
   const sim::Model model = build_model(scene, shapes);
   sim::Linearization linear(model, 1 / time.fps);
@@ -187,6 +188,21 @@ class Search {
 };
 
 }  // namespace
+
+std::string accurate_steps_text(const assets::Scene& scene, const Shapes& shapes) {
+  const double least = least_steps(scene, shapes);
+  const std::string from =
+      least > 0 ? fmt::format("not below {} a frame{}", static_cast<long>(std::ceil(least)),
+                              sim::is_implicit(scene.time.integrator)
+                                  ? ", as time.substeps asks"
+                                  : fmt::format(", where {} holds without contact at the start", scene.time.integrator))
+                : fmt::format("{} holds at any step", scene.time.integrator);
+  return fmt::format(
+      "stability: the steps are found in the run, {}; a run that fails is taken anew with finer ones, and of those "
+      "that "
+      "hold the error is estimated",
+      from);
+}
 
 ClipRun simulate_to_accuracy(const assets::Scene& scene, const Shapes& shapes, const ClipCache& cache, bool quiet) {
   if (scene.time.frames() < 2) return simulate_clip(scene, shapes, cache, 1, quiet);

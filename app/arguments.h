@@ -89,12 +89,18 @@ struct StudyArguments : CommonArguments {
   bool regions = false;  ///< the integrators' stability regions instead; no scene
 };
 
+struct BenchArguments : CommonArguments {
+  bool features = false;
+  int repeats = 3;
+};
+
 // Each returns an exit code, or throws UserError, RenderError, Interrupted.
 int run_render(const ClipArguments& arguments);
 int run_simulate(const ClipArguments& arguments);
 int run_turntable(const TurntableArguments& arguments);
 int run_compare(const CompareArguments& arguments);
 int run_study(const StudyArguments& arguments);
+int run_bench(const BenchArguments& arguments);
 int run_check(const CheckArguments& arguments);
 int run_tetrahedralize(const TetrahedralizeArguments& arguments);
 

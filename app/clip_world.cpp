@@ -8,8 +8,8 @@
 
 namespace softreel::app {
 
-ClipWorld::ClipWorld(const assets::Scene& scene, const Shapes& shapes)
-    : scene_(scene), fields_(build_fields(scene, shapes)) {
+ClipWorld::ClipWorld(const assets::Scene& scene, const Shapes& shapes) : scene_(scene) {
+  if (!scene.fields.empty()) fields_ = build_fields(scene, shapes);
   if (!scene.soft.empty() || !scene.cloth.empty() || !scene.springs.empty())
     bodies_ = std::make_unique<sim::Simulation>(build_model(scene, shapes), simulation_settings(scene));
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "app/accurate_clip.h"
 #include "app/arguments.h"
 #include "app/bill.h"
 #include "app/exit_code.h"
@@ -53,6 +54,7 @@ int run_check(const CheckArguments& a) {
   if (model.vertices() > 0 && scene.time.integrator != "static" && !scene.time.accuracy)
     forecast = make_forecast(scene, model);
   if (forecast) fmt::print("{}\n", forecast_text(scene, model, *forecast));
+  if (scene.time.accuracy) fmt::print("{}\n\n", accurate_steps_text(scene, shapes));
   const std::vector<std::string> warnings = warnings_of(scene, shapes, model, forecast ? &*forecast : nullptr);
   for (const std::string& warning : warnings)
     fmt::print("warning: {}\n{}", warning, &warning == &warnings.back() ? "\n" : "");

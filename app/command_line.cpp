@@ -20,6 +20,7 @@ constexpr const char* kExamples = R"(Examples:
   softreel compare reference/ out/hello/
   softreel study hello.toml --budget 5m --apply 1px
   softreel check hello.toml
+  softreel bench --features
   softreel tetrahedralize spot.obj -o spot.msh
 
 Exit codes: 0 done; 1 the answer is no; 2 wrong usage or scene; 3 an input file or a needed program is missing or
@@ -195,6 +196,16 @@ int run_command_line(int argc, char** argv) {
   add_compare(*app.add_subcommand("compare", "pictures or clips against references; exit code 1 if they differ"),
               compare);
   app.get_subcommand("compare")->callback([&] { run = [&] { return run_compare(compare); }; });
+
+  BenchArguments bench;
+  command = app.add_subcommand("bench", "what features cost where they are used, on this machine");
+  command->add_flag("--features", bench.features, "a table of them, each against the same scene without it")
+      ->required();
+  command->add_option("--repeats", bench.repeats, "runs of each scene, in turns, whose median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_common(*command, bench);
+  command->callback([&] { run = [&] { return run_bench(bench); }; });
 
   CheckArguments check;
   command = app.add_subcommand("check", "validate a scene; print what it needs and what is left out, and why");

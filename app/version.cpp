@@ -39,6 +39,8 @@ std::string version_text() {
        fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH));
   const std::string ffmpeg = find_program("ffmpeg");
   line("ffmpeg", ffmpeg.empty() ? "not found (only --video needs it)" : ffmpeg);
+  const std::string gnuplot = find_program("gnuplot");
+  line("gnuplot", gnuplot.empty() ? "not found (only the plots of study need it)" : gnuplot);
   text.pop_back();
   return text;
 }

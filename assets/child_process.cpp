@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -96,6 +97,15 @@ struct Reaper {
   }
 };
 
+/// This program, by its name: under valgrind /proc/self/exe itself is valgrind. When the file was replaced meanwhile,
+/// its name leads nowhere ("... (deleted)"), and only the link does.
+std::string own_program() {
+  constexpr const char* kLink = "/proc/self/exe";
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink(kLink, error);
+  return !error && std::filesystem::exists(program, error) ? program.string() : kLink;
+}
+
 pid_t spawn(const std::string& task, std::size_t memory_bytes, const SpawnActions& actions) {
   const std::string parent = std::to_string(::getpid());
   const std::string memory = std::to_string(memory_bytes);
@@ -113,8 +123,9 @@ pid_t spawn(const std::string& task, std::size_t memory_bytes, const SpawnAction
   environment.push_back(mark.data());
   environment.push_back(nullptr);
   pid_t pid = 0;
+  const std::string program = own_program();
   const int error =
-      posix_spawn(&pid, "/proc/self/exe", actions.get(), &attributes, const_cast<char**>(argv), environment.data());
+      posix_spawn(&pid, program.c_str(), actions.get(), &attributes, const_cast<char**>(argv), environment.data());
   posix_spawnattr_destroy(&attributes);
   if (error != 0) throw std::system_error(error, std::system_category(), "a worker process cannot be started");
   return pid;

@@ -7,6 +7,7 @@
 
 #include "sim/element_term.h"
 #include "sim/nearest_point.h"
+#include "sim/spring_damping.h"
 #include "sim/springs.h"
 
 namespace softreel::sim {

@@ -36,7 +36,7 @@ double AutoSolver::cholesky_work() {
 
 void AutoSolver::analyse(const BlockMatrix& A) {
   A_ = &A;
-  current_ = false;
+  current_ = factored_ = conditioned_ = false;
 }
 
 void AutoSolver::analyse_factor() {
@@ -44,7 +44,10 @@ void AutoSolver::analyse_factor() {
   current_ = true;
 }
 
-void AutoSolver::factorize(const BlockMatrix& A) { A_ = &A; }
+void AutoSolver::factorize(const BlockMatrix& A) {
+  A_ = &A;
+  factored_ = conditioned_ = false;
+}
 
 /// Iterations that cost as much as a factorization.
 long AutoSolver::affordable() { return std::max(10L, static_cast<long>(cholesky_work() / iteration_work())); }
@@ -64,7 +67,8 @@ LinearReport AutoSolver::solve(const Eigen::VectorXd& b, const LinearTargets& ta
 /// Iterations up to what the factorization would cost, which is found out once they look expensive.
 LinearReport AutoSolver::iterate(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
   constexpr long kCheap = 60;
-  cg_.factorize(*A_);
+  if (!conditioned_) cg_.factorize(*A_);
+  conditioned_ = true;
   cg_.set_max_iterations(work_ > 0 ? affordable() : kCheap);
   LinearReport report = cg_.solve(b, targets, x);
   long spent = 0;
@@ -94,7 +98,8 @@ void AutoSolver::judge(const LinearReport& report) {
 
 LinearReport AutoSolver::factor(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) {
   analyse_factor();
-  cholesky_.factorize(*A_);
+  if (!factored_) cholesky_.factorize(*A_);
+  factored_ = true;
   return cholesky_.solve(b, targets, x);
 }
 

@@ -27,12 +27,13 @@ class AutoSolver final : public LinearSolver {
   const BlockMatrix* A_ = nullptr;
   CholeskySolver cholesky_;
   ConjugateGradientSolver cg_;
-  bool current_ = false;    // the factor is analysed for the pattern of A_
-  double work_ = 0;         // of a factorization, as counted when it was last looked at; 0: never
-  bool direct_ = false;     // iterations are too expensive at present
-  long direct_solves_ = 0;  // since they were last tried
-  long pause_ = 0;          // direct ones until they are tried again
-  double mean_ = 0;         // iterations of a solve, the latest weighing most
+  bool current_ = false;                         // the factor is analysed for the pattern of A_
+  bool factored_ = false, conditioned_ = false;  // A_ is as cholesky_, cg_ know it
+  double work_ = 0;                              // of a factorization, as counted when it was last looked at; 0: never
+  bool direct_ = false;                          // iterations are too expensive at present
+  long direct_solves_ = 0;                       // since they were last tried
+  long pause_ = 0;                               // direct ones until they are tried again
+  double mean_ = 0;                              // iterations of a solve, the latest weighing most
 };
 
 }  // namespace softreel::sim

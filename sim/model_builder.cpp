@@ -2,17 +2,35 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <stdexcept>
 
 #include "sim/bending.h"
-#include "sim/body_forces.h"
 #include "sim/contact/surface_contact.h"
+#include "sim/drag.h"
+#include "sim/gravity.h"
 #include "sim/mass.h"
 #include "sim/membrane.h"
 #include "sim/solid.h"
+#include "sim/spring_damping.h"
 #include "sim/stiffness_damping.h"
 #include "sim/stiffness_scale.h"
 
+// tests/needs builds this file a second time without them, to count what they cost scenes that do not use them.
+#ifndef SOFTREEL_OPTIONAL_TERMS
+#define SOFTREEL_OPTIONAL_TERMS 1
+#endif
+
 namespace softreel::sim {
+namespace {
+
+/// Is an optional term to be built? A program without optional terms knows that none is, and links none.
+inline bool wanted(bool asked) {
+  if constexpr (SOFTREEL_OPTIONAL_TERMS) return asked;
+  if (asked) throw std::logic_error("this program was built without optional terms");
+  return false;
+}
+
+}  // namespace
 
 BodyRange ModelBuilder::add_body(const std::string& name, const std::vector<Vec3>& rest,
                                  const std::vector<double>& masses) {
@@ -35,15 +53,15 @@ void ModelBuilder::add_mass_correction(const Mesh& rest, double density, const B
 BodyRange ModelBuilder::add_solid(const std::string& name, const TetMesh& rest, const SolidMaterial& m) {
   const BodyRange body = add_body(name, rest.vertices, lumped_masses(rest, m.density));
   model_.potentials.push_back(make_solid(m.model, m.young, m.poisson, rest, body.first));
-  if (m.consistent_mass) add_mass_correction(rest, m.density, body);
+  if (wanted(m.consistent_mass)) add_mass_correction(rest, m.density, body);
   return body;
 }
 
 BodyRange ModelBuilder::add_membrane(const std::string& name, const TriangleMesh& rest, const MembraneMaterial& m) {
   const BodyRange body = add_body(name, rest.vertices, lumped_masses(rest, m.areal_density));
   model_.potentials.push_back(make_membrane(m.model, m.young, m.poisson, m.thickness, rest, body.first));
-  if (m.consistent_mass) add_mass_correction(rest, m.areal_density, body);
-  if (m.bending > 0) {
+  if (wanted(m.consistent_mass)) add_mass_correction(rest, m.areal_density, body);
+  if (wanted(m.bending > 0)) {
     const bool quadratic =
         m.bending_model == BendingModel::kQuadratic || (m.bending_model == BendingModel::kAuto && is_flat(rest));
     model_.potentials.push_back(quadratic ? make_quadratic_bending(rest, m.bending, body.first)
@@ -61,13 +79,13 @@ BodyRange ModelBuilder::add_points(const std::string& name, const std::vector<Ve
                                    const std::vector<double>& masses, std::vector<Spring> springs,
                                    double spring_damping) {
   const BodyRange body = add_body(name, points, masses);
-  if (springs.empty()) return body;
+  if (!wanted(!springs.empty())) return body;
   for (Spring& s : springs) {
     s.a += body.first;
     s.b += body.first;
   }
   model_.potentials.push_back(make_springs(springs));
-  if (spring_damping > 0) model_.dissipations.push_back(make_spring_damping(springs, spring_damping));
+  if (wanted(spring_damping > 0)) model_.dissipations.push_back(make_spring_damping(springs, spring_damping));
   return body;
 }
 
@@ -85,6 +103,7 @@ void ModelBuilder::set_velocity(const BodyRange& body, const Vec3& velocity, con
 }
 
 void ModelBuilder::add_ties(const std::vector<Tie>& ties, double damping) {
+  if (!wanted(!ties.empty())) return;
   for (auto& term : make_ties(ties)) model_.potentials.push_back(std::move(term));
   if (damping <= 0) return;
   for (auto& term : make_tie_damping(ties, damping)) model_.dissipations.push_back(std::move(term));
@@ -111,7 +130,7 @@ Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vec
   m.masses = masses();
   m.x0 = positions();
   m.v0 = Eigen::Map<const Eigen::VectorXd>(v_.data(), static_cast<Eigen::Index>(v_.size()));
-  if (damping.beta > 0) {
+  if (wanted(damping.beta > 0)) {
     std::vector<const EnergyTerm*> elastic;
     for (const auto& term : m.potentials) elastic.push_back(term.get());
     for (const EnergyTerm* term : elastic) m.dissipations.push_back(make_stiffness_damping(*term, damping.beta));
@@ -120,13 +139,14 @@ Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vec
   for (auto& load : loads_) m.potentials.push_back(std::move(load));
   // Drag is against the air, Rayleigh's part against rest.
   const double still = damping.alpha + (wind_ ? 0 : damping.drag);
-  if (still > 0) m.dissipations.push_back(make_drag(m.masses, still));
-  if (damping.alpha > 0)  // alpha M, of the mass as it is; drag is one force per vertex
+  if (wanted(still > 0)) m.dissipations.push_back(make_drag(m.masses, still));
+  if (wanted(damping.alpha > 0))  // alpha M, of the mass as it is; drag is one force per vertex
     for (const auto& make : scaled_corrections_) m.dissipations.push_back(make(damping.alpha));
-  if (wind_ && damping.drag > 0) m.dissipations.push_back(make_wind_drag(*wind_, m.masses, damping.drag));
-  if (!wind_surfaces_.empty() && wind_->density * (wind_->drag + wind_->friction) > 0)
+  if (wanted(wind_.has_value() && damping.drag > 0))
+    m.dissipations.push_back(make_wind_drag(*wind_, m.masses, damping.drag));
+  if (wanted(!wind_surfaces_.empty() && wind_->density * (wind_->drag + wind_->friction) > 0))
     m.dissipations.push_back(make_wind(*wind_, wind_surfaces_));
-  if (!colliders.empty()) {
+  if (wanted(!colliders.empty())) {
     const bool rough =
         std::any_of(colliders.begin(), colliders.end(), [](const Collider& c) { return c.friction > 0; });
     auto contact = std::make_unique<ColliderContact>(m.masses, std::move(colliders), settings);
@@ -134,7 +154,7 @@ Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vec
     if (rough) m.dissipations.push_back(make_collider_friction(*contact, settings.slip_speed));
     m.potentials.push_back(std::move(contact));
   }
-  if (!surfaces_.empty()) {
+  if (wanted(!surfaces_.empty())) {
     auto surfaces = std::make_unique<const ContactSurfaces>(surfaces_, surface_rules_);
     if (surfaces->any()) {
       const bool rough = std::any_of(surfaces->pairs.begin(), surfaces->pairs.end(),

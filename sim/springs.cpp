@@ -6,21 +6,11 @@
 #include <map>
 #include <utility>
 
-#include "sim/element_term.h"
 #include "sim/mesh_topology.h"
+#include "sim/spring_stencil.h"
 
 namespace softreel::sim {
 namespace {
-
-using Pair = ElementHessian<2>;
-
-/// [[K, -K], [-K, K]]
-void spread(const Eigen::Matrix3d& K, Pair& out) {
-  out.block<3, 3>(0, 0) = K;
-  out.block<3, 3>(3, 3) = K;
-  out.block<3, 3>(0, 3) = -K;
-  out.block<3, 3>(3, 0) = -K;
-}
 
 struct SpringKernel {
   static constexpr int kCorners = 2;
@@ -41,55 +31,18 @@ struct SpringKernel {
     out.col(1) = -out.col(0);
   }
 
-  void hessian(int e, const Corners<2>& X, Definiteness definiteness, Pair& out) const {
+  void hessian(int e, const Corners<2>& X, Definiteness definiteness, ElementHessian<2>& out) const {
     const Spring& s = springs[static_cast<size_t>(e)];
     const Eigen::Vector3d d = X.col(0) - X.col(1);
     const double length = d.norm();
-    if (!(length > 0)) return spread(s.stiffness * Eigen::Matrix3d::Identity(), out);
+    if (!(length > 0)) return spring_block(s.stiffness * Eigen::Matrix3d::Identity(), out);
     const Eigen::Vector3d n = d / length;
     double across = 1 - s.length / length;  // negative under compression
     if (definiteness == Definiteness::kClamped) across = std::max(across, 0.0);
     const Eigen::Matrix3d along = n * n.transpose();
-    spread(s.stiffness * (along + across * (Eigen::Matrix3d::Identity() - along)), out);
+    spring_block(s.stiffness * (along + across * (Eigen::Matrix3d::Identity() - along)), out);
   }
 };
-
-struct SpringDampingKernel {
-  static constexpr int kCorners = 2;
-  static constexpr bool kConstantHessian = false;
-  double damping;  // [N s/m]
-  std::vector<Eigen::Vector3d> direction;
-
-  void begin_step(const StepContext& context, std::span<const int> stencils) {
-    for (size_t e = 0; e < direction.size(); ++e) {
-      const Eigen::Vector3d d =
-          context.x_predicted.segment<3>(3 * stencils[2 * e]) - context.x_predicted.segment<3>(3 * stencils[2 * e + 1]);
-      const double length = d.norm();
-      direction[e] = length > 0 ? Eigen::Vector3d(d / length) : Eigen::Vector3d::Zero();
-    }
-  }
-
-  double energy(int e, const Corners<2>& V) const {
-    const double rate = direction[static_cast<size_t>(e)].dot(V.col(0) - V.col(1));
-    return 0.5 * damping * rate * rate;
-  }
-  void gradient(int e, const Corners<2>& V, Corners<2>& out) const {
-    const Eigen::Vector3d& d = direction[static_cast<size_t>(e)];
-    out.col(0) = damping * d.dot(V.col(0) - V.col(1)) * d;
-    out.col(1) = -out.col(0);
-  }
-  void hessian(int e, const Corners<2>&, Definiteness, Pair& out) const {
-    const Eigen::Vector3d& d = direction[static_cast<size_t>(e)];
-    spread(damping * d * d.transpose(), out);
-  }
-};
-
-std::vector<int> pairs(const std::vector<Spring>& springs) {
-  std::vector<int> stencils;
-  stencils.reserve(springs.size() * 2);
-  for (const Spring& s : springs) stencils.insert(stencils.end(), {s.a, s.b});
-  return stencils;
-}
 
 Spring between(const TriangleMesh& mesh, int a, int b, double stiffness) {
   return {a, b, stiffness, (mesh.vertices[static_cast<size_t>(a)] - mesh.vertices[static_cast<size_t>(b)]).norm()};
@@ -103,14 +56,8 @@ void add_bending(const TriangleMesh& mesh, double stiffness, std::vector<Spring>
 }  // namespace
 
 std::unique_ptr<EnergyTerm> make_springs(const std::vector<Spring>& springs) {
-  return std::make_unique<ElementTerm<SpringKernel>>("springs", EnergyKind::kElastic, pairs(springs),
+  return std::make_unique<ElementTerm<SpringKernel>>("springs", EnergyKind::kElastic, spring_stencils(springs),
                                                      SpringKernel{springs});
-}
-
-std::unique_ptr<EnergyTerm> make_spring_damping(const std::vector<Spring>& springs, double damping) {
-  SpringDampingKernel kernel{damping, std::vector<Eigen::Vector3d>(springs.size(), Eigen::Vector3d::Zero())};
-  return std::make_unique<ElementTerm<SpringDampingKernel>>("spring damping", EnergyKind::kDissipation, pairs(springs),
-                                                            std::move(kernel));
 }
 
 std::vector<Spring> grid_springs(const TriangleMesh& sheet, int cells_x, int cells_z, const SpringStiffness& k) {

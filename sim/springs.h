@@ -25,10 +25,6 @@ struct SpringStiffness {
 /// where the direction is undefined, force and geometric part are zero.
 std::unique_ptr<EnergyTerm> make_springs(const std::vector<Spring>& springs);
 
-/// Viscous damping along the springs, D(v) = c/2 (d . (v_a - v_b))^2, c [N s/m] >= 0; the direction d is taken at
-/// the predicted positions of each step.
-std::unique_ptr<EnergyTerm> make_spring_damping(const std::vector<Spring>& springs, double damping);
-
 /// Springs of a regular grid of (cells_x + 1) x (cells_z + 1) vertices (grid_sheet): neighbours, diagonals, every
 /// second neighbour.
 std::vector<Spring> grid_springs(const TriangleMesh& sheet, int cells_x, int cells_z, const SpringStiffness&);

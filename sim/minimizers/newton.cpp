@@ -33,6 +33,13 @@ constexpr std::array kModifications = {
            "Nocedal, Wright 2006, section 3.4"}},
 };
 
+bool constant_hessians(const Model& model) {
+  for (const auto* list : {&model.potentials, &model.dissipations, &model.mass_corrections})
+    for (const auto& term : *list)
+      if (term->changing_stencils() || (term->stencil_size() > 0 && !term->constant_hessian())) return false;
+  return true;
+}
+
 }  // namespace
 
 Catalogue hessian_modifications() { return catalogue_of<kModifications>(); }
@@ -44,7 +51,8 @@ Newton::Newton(const Model& model, IncrementalPotential& phi, const LinearSettin
       modification_(
           static_cast<Modification>(&find_method(kModifications, settings.hessian, "Hessian") - kModifications.data())),
       linear_(make_linear_solver(linear_solver)),
-      search_(phi, settings.line_search) {}
+      search_(phi, settings.line_search),
+      constant_(constant_hessians(model)) {}
 
 /// Builds the pattern and the symbolic work before the first step needs it (a resumed run restores into it).
 void Newton::prepare() {
@@ -55,6 +63,7 @@ void Newton::prepare() {
   stage.b = Eigen::VectorXd::Zero(model_.x0.size());
   stage.beta = stage.a = 0;
   phi_.hessian(model_.x0, definiteness_, H_, ignored);
+  assembled_ = {};
   linear_->analyse(H_);
   analysed_ = H_.pattern;
 }
@@ -91,7 +100,9 @@ void Newton::end() {
 
 Minimizer::Failure Newton::advance(int iteration, Eigen::VectorXd& y, StepReport& report) {
   const double norm = g_.norm(), factor = norm / last_norm_;
-  forcing_ = iteration == 0 ? kFirstForcing : std::min(kFirstForcing, kForcingFactor * factor * factor);
+  forcing_ = constant_        ? 0  // the matrix is right: to the end at once
+             : iteration == 0 ? kFirstForcing
+                              : std::min(kFirstForcing, kForcingFactor * factor * factor);
   last_norm_ = norm;
   ++report.newton_iterations;
   if (modification_ == Modification::kAuto && iteration == next_exact_) definiteness_ = Definiteness::kExact;
@@ -99,6 +110,17 @@ Minimizer::Failure Newton::advance(int iteration, Eigen::VectorXd& y, StepReport
   if (step(iteration, y, report, failure)) return {};
   shift_ = 0;
   return failure;
+}
+
+/// H_ := the Hessian at y, unless it is that already.
+void Newton::assemble(const Eigen::VectorXd& y, StepReport& report) {
+  const Stage& stage = phi_.stage();
+  const Scales scales{stage.inertia, stage.beta, stage.a};
+  if (constant_ && scales == assembled_ && applied_shift_ == 0) return;
+  phi_.hessian(y, definiteness_, H_, report);
+  assembled_ = scales;
+  applied_shift_ = 0;
+  factorized_ = false;
 }
 
 /// The held go the rest of their way d_h, the others take Newton's step with them: H_ff d_f = -g_f - H_fh d_h. What
@@ -109,8 +131,7 @@ Minimizer::Failure Newton::drive(Eigen::VectorXd& y, StepReport& report) {
   forcing_ = kFirstForcing;
   phi_.soften();
   definiteness_ = Definiteness::kClamped;
-  phi_.hessian(y, definiteness_, H_, report);
-  applied_shift_ = 0;
+  assemble(y, report);
   phi_.driven_force(y, model_gradient_, report);
   model_gradient_ += g_;
   Failure failure;
@@ -136,8 +157,7 @@ void Newton::clamp_for_a_while(int iteration, bool indefinite) {
 bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::string& failure) {
   phi_.soften();
   const auto model_at = [&] {
-    phi_.hessian(y, definiteness_, H_, report);
-    applied_shift_ = 0;
+    assemble(y, report);
     test_.see_hessian(H_, y);
   };
   model_at();
@@ -161,7 +181,11 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
   while (true) {
     if (found) {
       const double slope = g_.dot(d_);
-      const double length = slope < 0 ? search_.along(d_, slope, test_.value_rounding(), 1, y, report) : 0;
+      const bool at_once = constant_ && applied_shift_ == 0 && slope < 0;  // a quadratic function
+      if (at_once) y += d_;
+      const double length = at_once     ? 1
+                            : slope < 0 ? search_.along(d_, slope, test_.value_rounding(), 1, y, report)
+                                        : 0;
       if (length > 0) {
         if (applied_shift_ == 0 && !hardened) {  // a shifted step is short for another reason than being nearly there
           test_.look_at_slope(slope);
@@ -213,6 +237,7 @@ bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string
   if (analysed_ != H_.pattern) {
     linear_->analyse(H_);
     analysed_ = H_.pattern;
+    factorized_ = false;
   }
   const std::vector<double> targets = linear_targets();
   // Of the body at rest: the diagonal of H itself can be anything in a bad state, zero and less included.
@@ -223,8 +248,10 @@ bool Newton::direction(const Eigen::VectorXd& y, StepReport& report, std::string
     if (const double c = tried ? 0 : shift_ * mean; c != applied_shift_) {
       for (const int k : H_.diagonal) H_.block(k).diagonal().array() += c - applied_shift_;
       applied_shift_ = c;
+      factorized_ = false;
     }
-    linear_->factorize(H_);
+    if (!factorized_) linear_->factorize(H_);
+    factorized_ = true;
     const LinearReport linear = linear_->solve(-model_gradient_, {model_.bodies, targets, &y, &phi_.held()}, d_);
     report.linear_iterations += linear.iterations;
     report.solver = linear.chosen;

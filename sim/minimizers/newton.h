@@ -19,6 +19,9 @@ namespace softreel::sim {
 /// beside the element and seldom loses much. "shifted": the exact Hessian plus c I (Nocedal and Wright 2006,
 /// section 3.4), c growing tenfold until the factorization succeeds and the search goes down, and falling again when it
 /// does. The clamped one is shifted too where it is singular (a free body at rest, a slack sheet in equilibrium).
+///
+/// Where no Hessian ever changes (linear solids, gravity, drag), the matrix is assembled and factorized once for each
+/// length of step, and its full step is the minimum: no search.
 class Newton final : public Minimizer {
  public:
   static constexpr MethodInfo kInfo = {"newton", "few iterations at any stiffness",
@@ -39,6 +42,7 @@ class Newton final : public Minimizer {
   std::string_view title() const override { return "Newton's method"; }
 
   void prepare();
+  void assemble(const Eigen::VectorXd& y, StepReport& report);
   bool step(int iteration, Eigen::VectorXd& y, StepReport& report, std::string& failure);
   void clamp_for_a_while(int iteration, bool indefinite);
   bool shift_more();
@@ -60,6 +64,13 @@ class Newton final : public Minimizer {
   double shift_ = 0;          // c, relative to the mean diagonal at rest; kept from step to step
   bool indefinite_ = false;   // why the last direction was not found
   double applied_shift_ = 0;  // what of it is in H_ [kg]
+  const bool constant_;       // no Hessian of the model ever changes
+  // Scales of the stage that H_ is of, 0 of all: of none.
+  struct Scales {
+    double inertia = 0, beta = 0, a = 0;
+    bool operator==(const Scales&) const = default;
+  } assembled_;
+  bool factorized_ = false;  // the linear solver knows H_ as it is
   BlockMatrix H_;
   Eigen::VectorXd model_gradient_, d_;
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/body_forces.h"
+#include "sim/gravity.h"
 #include "sim/grids.h"
 #include "tests/sim/support.h"
 
