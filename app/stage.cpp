@@ -256,7 +256,7 @@ void Stage::add_colliders(const Shapes& shapes, const ClipExtent& extent) {
     if (!c.visible) continue;
     if (c.shape == assets::ColliderShape::kMesh) {
       const BodySurface& drawn = shapes.colliders[i]->drawn;
-      DrawnSurface d = drawn_surface(drawn.surface, drawn.position_count, c.look, texture_path(scene_, c.look), true);
+      DrawnSurface d = drawn_surface(scene_, drawn.surface, drawn.position_count, c.look, c.transform, true);
       DrawnCollider placed{renderer_.add_mesh(std::move(d.mesh), std::move(d.looks)), make_collider(c),
                            !c.motion.empty()};
       placed.collider.world_from_shape.setIdentity();  // its vertices are placed
