@@ -40,7 +40,6 @@ void walk_body(KeyVisitor& v, Body& b) {
   v.key({"spin", kPhysics, "deg/s", kTurns, "at t = 0, about the world's axes through the centre of mass"}, &b.spin);
   v.list({"pins", "vertices that are held or driven"}, keys_of(b.pins));
   v.section({"look", "how it looks", {"color"}}, keys_of(b.look));
-  v.section({"data", "colours by a figure of the simulation; not for springs", {"show"}}, keys_of(b.data));
   v.key({"visible", kPicture, "", {}, "whether it is drawn"}, &b.visible);
 }
 
@@ -148,6 +147,7 @@ void walk(KeyVisitor& v, SoftBody& b) {
   v.key({"density", kPhysics, "kg/m^3", kDensity, "mass per volume"}, &b.density);
   walk_mass(v, b);
   walk_body(v, b);
+  v.section({"data", "colours by a figure of the simulation", {"show"}}, keys_of(b.data));
   v.section({"contact", "how its surface touches itself and others"}, keys_of(b.contact));
   if (v.reading()) check(v, b);
 }
@@ -172,6 +172,7 @@ void walk(KeyVisitor& v, Cloth& c) {
   v.key({"density", kPhysics, "kg/m^3", kDensity, "mass per volume; mass per area is density x thickness"}, &c.density);
   walk_mass(v, c);
   walk_body(v, c);
+  v.section({"data", "colours by a figure of the simulation", {"show"}}, keys_of(c.data));
   v.section({"contact", "how its surface touches itself and others"}, keys_of(c.contact));
   if (v.reading()) check(v, c);
 }

@@ -75,7 +75,7 @@ TEST_CASE("One sample has no accumulation buffer, two have") {
 
 TEST_CASE("Lights without shadow draw no shadow maps") {
   const std::string dark = test::hanging_cloth() + "[[light]]\nkind = \"sun\"\nshadow = false\n";
-  const auto without = stats(dark, {"--set", "light.1.shadow=false"});
+  const auto without = stats(dark, {"--set", "light.1.shadow=false", "--set", "render.sky_shadow=false"});
   CHECK_FALSE(has(without, "render_counters", "shadow_maps"));
   CHECK_FALSE(has(without, "render_counters", "shadow_passes"));
   CHECK(left_out(without, "shadow maps"));

@@ -43,6 +43,7 @@ radius = 0.4
 [render]
 size = [160, 90]
 samples = 16
+sky_shadow = false
 ground = { show = "on" }
 )" + second;
 }

