@@ -113,11 +113,17 @@ std::vector<FeatureCost> measure_features(const std::filesystem::path& folder, i
     const std::string_view unit = unit_of(*f);
     const auto a = arguments_of(against, *f, folder / "without"), b = arguments_of(f, *f, folder / "with");
     std::vector<double> times[2], memory[2];
-    for (int k = -1; k < repeats; ++k)  // the first time is for caches of files and shaders
-      for (const bool with : {false, true}) {
-        const Sample s = run_once(with ? b : a, unit, folder / (with ? "with" : "without"), threads);
-        if (k >= 0) times[with].push_back(s.milliseconds), memory[with].push_back(s.memory);
-      }
+    try {
+      for (int k = -1; k < repeats; ++k)  // the first time is for caches of files and shaders
+        for (const bool with : {false, true}) {
+          const Sample s = run_once(with ? b : a, unit, folder / (with ? "with" : "without"), threads);
+          if (k >= 0) times[with].push_back(s.milliseconds), memory[with].push_back(s.memory);
+        }
+    } catch (const assets::UserError& e) {  // one that cannot run at this size is told, and left out of the table
+      say(quiet, fmt::format("{} is left out: {}", f->name, e.what()));
+      progress.advance();
+      continue;
+    }
     costs.push_back({std::string(f->name), against ? std::string(against->name) : "the base scene", std::string(unit),
                      median(times[0]), median(times[1]), median(memory[0]), median(memory[1])});
     progress.advance();

@@ -41,6 +41,7 @@ f 2 4 3
 )";
 
 constexpr std::string_view kBlock = R"([[soft]]
+contact = { others = false }
 name = "block"
 block = { size = [1, 1, 1], cells = [2, 2, 2] }
 material = { young = 1e4 }
@@ -84,7 +85,7 @@ const std::vector<Feature> kFeatures = {
      .code = {"assets/tetrahedralize", "assets/tetgen_task", "assets/tet_cache"},
      .brings = {"tetrahedral solids"},
      .against = "tetrahedral solids",
-     .scene = "[[soft]]\nmesh = \"pyramid.obj\"\nmaterial = { young = 1e4 }\n",
+     .scene = "[[soft]]\ncontact = { others = false }\nmesh = \"pyramid.obj\"\nmaterial = { young = 1e4 }\n",
      .files = {{"pyramid.obj", kPyramid}},
      .stats = {"seconds.tetrahedralize"},
      .whole_run = true},
