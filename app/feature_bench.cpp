@@ -45,10 +45,14 @@ std::vector<std::string> arguments_of(const Feature* of, const Feature& row, con
   const auto has = [&](std::string_view part) { return of && of->scene.find(part) != std::string_view::npos; };
   // What the feature itself overrides comes later and counts.
   set(fmt::format("cloth.sheet.grid.cells=[{0},{0}]", kCells));
+  if (has("name = \"below\"")) set(fmt::format("cloth.below.grid.cells=[{0},{0}]", kCells));
   if (has("name = \"net\"")) set(fmt::format("cloth.net.grid.cells=[{0},{0}]", kCells));
   if (has("[[field]]")) set(fmt::format("field.1.grid.cells=[{0},{0}]", kCells));
   if (has("block =")) set("soft.block.block.cells=[8,8,8]");
-  if (!explicit_against_implicit(row) && !row.checked) set("time.integrator=\"implicit-euler\"");
+  if (explicit_against_implicit(row) || row.checked)
+    set("time.substeps=20");  // what holds explicitly at this size
+  else
+    set("time.integrator=\"implicit-euler\"");
   set("time.duration=0.5");
   if (row.drawn) set("render.size=[640,360]");
   return arguments;

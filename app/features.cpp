@@ -4,6 +4,8 @@
 
 namespace softreel::app {
 
+using namespace std::string_view_literals;
+
 const std::string_view kBaseScene = R"(title = "Base"
 [time]
 duration = 0.1
@@ -24,6 +26,7 @@ shadow = false
 size = [32, 24]
 samples = 1
 ground = { show = "off" }
+sky_shadow = false
 )";
 
 const std::vector<std::string_view> kBaseFeatures = {"membranes", "gravity"};
@@ -48,9 +51,25 @@ material = { young = 1e4 }
 translate = [0, -2, 0]
 )";
 
+/// A second sheet below the first: too far to touch, near enough to be looked at.
+constexpr std::string_view kSecondSheet = R"([[cloth]]
+name = "below"
+grid = { size = [1, 1], cells = [6, 6] }
+material = { model = "stvk", young = 1e4, bending = 0 }
+translate = [0, -2.5e-3, 0]
+)";
+constexpr std::string_view kSecondSheetApart = R"([[cloth]]
+name = "below"
+contact = { others = false }
+grid = { size = [1, 1], cells = [6, 6] }
+material = { model = "stvk", young = 1e4, bending = 0 }
+translate = [0, -2.5e-3, 0]
+)";
+
 constexpr std::string_view kNet = R"([[cloth]]
 name = "net"
 model = "mass-spring"
+contact = { others = false }
 grid = { size = [1, 1], cells = [4, 4] }
 material = { young = 1e4 }
 translate = [0, -1, 0]
@@ -60,8 +79,10 @@ translate = [0, -1, 0]
 constexpr std::string_view kTextured = R"([[cloth]]
 name = "picture"
 mesh = "square.obj"
+contact = { others = false }
+translate = [0, -0.5, 0]
 material = { young = 1e4, bending = 0 }
-look = { texture = "checks.ppm" }
+look = { texture = "checks.tga" }
 )";
 constexpr std::string_view kSquare = R"(v 0 0 0
 v 1 0 0
@@ -74,7 +95,10 @@ vt 0 1
 f 1/1 4/4 3/3
 f 1/1 3/3 2/2
 )";
-constexpr std::string_view kChecks = "P6 2 2 255\nabcdefghijkl";
+/// Targa, the simplest of all that can be read: header, then blue, green, red.
+constexpr std::string_view kChecks =
+    "\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\0"
+    "abcdefghijkl"sv;
 
 const std::vector<Feature> kFeatures = {
     {.name = "gravity", .code = {"sim/gravity"}},
@@ -130,8 +154,20 @@ const std::vector<Feature> kFeatures = {
      .overrides = {"cloth.sheet.translate=[0,0.01,0]"},
      .scene = "[[collider]]\nfriction = 0.4\n",
      .stats = {"simulate_seconds.contact"}},
+    {.name = "second sheet", .code = {}, .scene = kSecondSheetApart},
+    {.name = "contact between surfaces",
+     .code = {"sim/surface_contact", "sim/surface_friction", "sim/contact_candidates", "sim/contact_surfaces",
+              "sim/box_tree", "sim/free_path", "sim/closest_points", "app/touching_surfaces"},
+     .brings = {"second sheet"},
+     .against = "second sheet",
+     .scene = kSecondSheet,
+     .stats = {"contact", "simulate_seconds.contact"}},
+    {.name = "contact of a sheet with itself",
+     .code = {},
+     .brings = {"contact between surfaces"},
+     .overrides = {"cloth.sheet.contact.self=true"}},
     {.name = "Hessians and a linear solver",
-     .code = {"sim/hessian_assembler", "sim/block_matrix", "sim/cholmod_factor"},
+     .code = {"sim/hessian_assembler", "sim/cholmod_factor"},
      .brings = {"implicit steps"},
      .overrides = {"time.integrator=\"implicit-euler\""},
      .stats = {"simulate_seconds.assemble", "simulate_seconds.solve", "solver.chosen"}},
@@ -141,19 +177,20 @@ const std::vector<Feature> kFeatures = {
      .overrides = {"time.integrator=\"implicit-euler\""}},
     {.name = "consistent mass",
      .code = {"sim/mass_correction"},
-     .brings = {"Hessians and a linear solver"},
+     .shares_code = {"Hessians and a linear solver"},
      .overrides = {"cloth.sheet.mass=\"consistent\""}},
     {.name = "scalar fields",
      .code = {"sim/field", "sim/field_assembly", "sim/field_solver", "app/field_world"},
-     .brings = {"Hessians and a linear solver"},
+     .shares_code = {"Hessians and a linear solver"},
      .scene = "[[field]]\ngrid = { cells = [4, 4] }\nfixed = [{ boundary = true, value = \"x\" }]\ncolorbar = false\n"},
     {.name = "stability before the run",
      .code = {"app/forecast", "sim/linearization", "sim/lanczos"},
-     .brings = {"Hessians and a linear solver"},
+     .shares_code = {"Hessians and a linear solver"},
      .checked = true,
      .whole_run = true},
     {.name = "estimate of the error in time",
      .code = {"sim/adaptive_plan", "sim/adaptive_figures", "app/accurate_clip"},
+     .shares_code = {"Hessians and a linear solver", "stability before the run"},
      .overrides = {"time.accuracy=\"1 cm\""},
      .stats = {"accuracy"},
      .whole_run = true},
@@ -174,16 +211,41 @@ const std::vector<Feature> kFeatures = {
      .drawn = true},
     {.name = "colour bars",
      .code = {"render/color_bar", "render/text"},
-     .brings = {"scalar fields", "Hessians and a linear solver"},
+     .brings = {"scalar fields"},
+     .shares_code = {"Hessians and a linear solver"},
      .against = "scalar fields",
      .scene = "[[field]]\ngrid = { cells = [4, 4] }\nfixed = [{ boundary = true, value = \"x\" }]\n",
      .drawn = true},
     {.name = "textures",
      .code = {"render/image_io"},
      .scene = kTextured,
-     .files = {{"square.obj", kSquare}, {"checks.ppm", kChecks}},
+     .files = {{"square.obj", kSquare}, {"checks.tga", kChecks}},
      .stats = {"render_counters.textures"},
      .drawn = true},
+    {.name = "shadows of the sky",
+     .code = {},
+     .overrides = {"render.sky_shadow=true"},
+     .stats = {"render_counters.shadow_maps", "render_counters.shadow_passes"},
+     .drawn = true},
+    {.name = "motion blur",
+     .code = {},
+     .brings = {"accumulation buffer"},
+     .against = "accumulation buffer",
+     .overrides = {"render.samples=4", "render.shutter=0.5"},
+     .drawn = true},
+    {.name = "depth of field",
+     .code = {},
+     .brings = {"accumulation buffer"},
+     .against = "accumulation buffer",
+     .overrides = {"render.samples=4", "camera.aperture=0.05"},
+     .drawn = true},
+    {.name = "side channels",
+     .code = {"render/channels", "render/png16"},
+     .overrides = {"render.depth=true"},
+     .drawn = true},
+    {.name = "sheen", .code = {}, .overrides = {"cloth.sheet.look.sheen=0.5"}, .drawn = true},
+    {.name = "patterns", .code = {}, .overrides = {"cloth.sheet.look.pattern=\"checker\""}, .drawn = true},
+    {.name = "edges of triangles", .code = {}, .overrides = {"cloth.sheet.look.wire=\"black\""}, .drawn = true},
     {.name = "video", .code = {"app/video"}, .options = {"--video", "@clip.mp4"}, .drawn = true, .whole_run = true},
 };
 

@@ -16,11 +16,12 @@ struct Feature {
   /// Code that runs for this feature alone: source files from the root without ending (sim/wind, app/stats), or the
   /// beginning of a function's full name (softreel::sim::Motion::).
   std::vector<std::string_view> code;
-  std::vector<std::string_view> brings{};     ///< other features that it is never without
-  std::string_view against{};                 ///< whose scene shows what it costs; empty: the base scene
-  std::vector<std::string_view> overrides{};  ///< of the base scene, as --set
-  std::string_view scene{};                   ///< TOML that follows the base scene
-  std::vector<std::string_view> options{};    ///< of the command line; @ at the front: beside the scene
+  std::vector<std::string_view> brings{};       ///< other features that it is never without
+  std::vector<std::string_view> shares_code{};  ///< features that a scene with it need not use, but code of which runs
+  std::string_view against{};                   ///< whose scene shows what it costs; empty: the base scene
+  std::vector<std::string_view> overrides{};    ///< of the base scene, as --set
+  std::string_view scene{};                     ///< TOML that follows the base scene
+  std::vector<std::string_view> options{};      ///< of the command line; @ at the front: beside the scene
   std::vector<std::pair<std::string_view, std::string_view>> files{};  ///< beside the scene: name, content
   std::vector<std::string_view> without{};                             ///< features of the base scene that it replaces
   std::vector<std::string_view> stats{};  ///< keys of --stats that are there only with it (energy.contact)

@@ -59,9 +59,11 @@ render::Camera camera_of(const assets::Scene& scene, const ClipExtent& extent,
   const assets::Camera& c = scene.camera;
   const float whole_aspect = static_cast<float>(scene.render.size[0]) / static_cast<float>(scene.render.size[1]);
   // Colour bars take a part of the right side; what is left of it frames the scene.
-  const float bars = std::min(
-      0.5f, static_cast<float>(render::color_bars_width(scene.render.size[0], scene.render.size[1], color_bars)) /
-                static_cast<float>(scene.render.size[0]));
+  float bars = 0;
+  if (!color_bars.empty())
+    bars = std::min(
+        0.5f, static_cast<float>(render::color_bars_width(scene.render.size[0], scene.render.size[1], color_bars)) /
+                  static_cast<float>(scene.render.size[0]));
   const float aspect = whole_aspect * (1 - bars);
   const float fov = static_cast<float>(c.fov);
   camera.fov = fov;

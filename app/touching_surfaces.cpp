@@ -9,7 +9,6 @@
 #include "app/world.h"
 #include "assets/crossing_pairs.h"
 #include "assets/error.h"
-#include "assets/scene_contact.h"
 
 namespace softreel::app {
 namespace {
@@ -99,7 +98,6 @@ class Separation {
 
 void add_touching_surfaces(const assets::Scene& scene, const Shapes& shapes, const std::vector<PlacedBody>& bodies,
                            sim::ModelBuilder& builder) {
-  if (!assets::has_touching_surfaces(scene)) return;
   std::vector<sim::SurfaceInput> surfaces;
   std::map<std::string, int> number;  // by place
   for_each_touching_body(scene, [&](const std::string& place, const assets::Body& body) {
@@ -160,21 +158,25 @@ std::vector<Crossing> crossings(const sim::ContactSurfaces& surfaces, const Eige
     surface_of_triangle.insert(surface_of_triangle.end(), static_cast<size_t>(surfaces.surfaces[s].triangle_count),
                                static_cast<int>(s));
   std::map<std::pair<int, int>, long> count;
-  for (const sim::SurfacePair& pair : surfaces.pairs) count[{pair.a, pair.b}] = 0;
+  const auto of = [&](int t1, int t2) {
+    return std::minmax(surface_of_triangle[static_cast<size_t>(t1)], surface_of_triangle[static_cast<size_t>(t2)]);
+  };
+  std::vector<char> can_touch(surfaces.surfaces.size() * surfaces.surfaces.size(), 0);
+  const auto place = [&](std::pair<int, int> p) {
+    return static_cast<size_t>(p.first) * surfaces.surfaces.size() + static_cast<size_t>(p.second);
+  };
+  for (const sim::SurfacePair& pair : surfaces.pairs) can_touch[place({pair.a, pair.b})] = 1;
   constexpr size_t kMost = 1000000;
-  for (const auto& [t1, t2] : assets::crossing_pairs({positions_of(surfaces, x, t), surfaces.triangles}, kMost)) {
-    const int a = surface_of_triangle[static_cast<size_t>(t1)], b = surface_of_triangle[static_cast<size_t>(t2)];
-    const auto it = count.find({std::min(a, b), std::max(a, b)});
-    if (it != count.end()) ++it->second;
-  }
+  const sim::TriangleMesh mesh{positions_of(surfaces, x, t), surfaces.triangles};
+  for (const auto& [t1, t2] :
+       assets::crossing_pairs(mesh, kMost, [&](int a, int b) { return can_touch[place(of(a, b))] != 0; }))
+    ++count[of(t1, t2)];
   std::vector<Crossing> result;
-  for (const auto& [pair, pairs] : count)
-    if (pairs > 0) result.push_back({pair.first, pair.second, pairs});
+  for (const auto& [pair, pairs] : count) result.push_back({pair.first, pair.second, pairs});
   return result;
 }
 
 void settle_overlaps(const assets::Scene& scene, sim::Model& model) {
-  if (!model.surfaces) return;
   const sim::ContactSurfaces& surfaces = model.surfaces->surfaces();
   std::vector<Crossing> found = crossings(surfaces, model.x0, 0);
   if (found.empty()) return;

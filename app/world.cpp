@@ -9,6 +9,7 @@
 #include "app/placement.h"
 #include "app/touching_surfaces.h"
 #include "assets/error.h"
+#include "assets/scene_contact.h"
 #include "assets/scene_names.h"
 #include "sim/free_bodies.h"
 #include "sim/model_builder.h"
@@ -221,13 +222,13 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
   std::vector<sim::Collider> colliders;
   for (const assets::Collider& c : scene.colliders)
     if (c.shape != assets::ColliderShape::kMesh) colliders.push_back(make_collider(c));
-  add_touching_surfaces(scene, shapes, bodies, builder);
+  if (assets::has_touching_surfaces(scene)) add_touching_surfaces(scene, shapes, bodies, builder);
   sim::Model model =
       builder.finish(scene.gravity, {scene.damping.drag, scene.damping.alpha, scene.damping.beta}, std::move(colliders),
                      {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0),
                       sim::is_implicit(scene.time.integrator) ? 100.0 : sim::kExplicitHardness,
                       sim::is_implicit(scene.time.integrator) ? 10.0 : 0.0});
-  settle_overlaps(scene, model);
+  if (model.surfaces) settle_overlaps(scene, model);
   if (scene.time.integrator == "static") refuse_free_bodies(scene, model);
   return model;
 }

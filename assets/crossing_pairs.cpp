@@ -25,9 +25,10 @@ class BoxTree {
     if (!order_.empty()) build(0, static_cast<int>(order_.size()));
   }
 
-  std::vector<std::pair<int, int>> self_crossings(std::size_t limit) {
+  std::vector<std::pair<int, int>> self_crossings(std::size_t limit, const std::function<bool(int, int)>& wanted) {
     pairs_.clear();
     limit_ = limit;
+    wanted_ = &wanted;
     if (!nodes_.empty()) inside(0);
     std::sort(pairs_.begin(), pairs_.end());
     return std::move(pairs_);
@@ -72,6 +73,7 @@ class BoxTree {
   void test(int place_a, int place_b) {
     if (!box_of(place_a).intersects(box_of(place_b))) return;
     const int a = order_[static_cast<std::size_t>(place_a)], b = order_[static_cast<std::size_t>(place_b)];
+    if (*wanted_ && !(*wanted_)(a, b)) return;
     sim::Triangle s = mesh_.triangles[static_cast<std::size_t>(a)], t = mesh_.triangles[static_cast<std::size_t>(b)];
     if (!triangles_cross(mesh_.vertices, s, t)) return;
     std::sort(s.begin(), s.end());
@@ -115,12 +117,14 @@ class BoxTree {
   std::vector<Node> nodes_;
   std::vector<std::pair<int, int>> pairs_;
   std::size_t limit_ = 0;
+  const std::function<bool(int, int)>* wanted_ = nullptr;
 };
 
 }  // namespace
 
-std::vector<std::pair<int, int>> crossing_pairs(const sim::TriangleMesh& mesh, std::size_t limit) {
-  return BoxTree(mesh).self_crossings(limit);
+std::vector<std::pair<int, int>> crossing_pairs(const sim::TriangleMesh& mesh, std::size_t limit,
+                                                const std::function<bool(int, int)>& wanted) {
+  return BoxTree(mesh).self_crossings(limit, wanted);
 }
 
 }  // namespace softreel::assets

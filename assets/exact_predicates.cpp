@@ -83,6 +83,44 @@ bool segments_meet(const sim::Vec3& p, const sim::Vec3& q, const sim::Vec3& a, c
          (bp == 0 && within(b, p, q));
 }
 
+bool lie_in_an_axis_plane(int axis, const sim::Vec3& a, const sim::Vec3& b, const sim::Vec3& c) {
+  return a[axis] == b[axis] && a[axis] == c[axis];
+}
+
+/// u . v beyond doubt; 0: rounding could have turned it. Rows are differences of given points: three roundings in a
+/// product and two in the sum stay below 5 * 2^-53 (1 + small) of |u|_i |v|_i, which 1e-15 leaves room above.
+int sure_sign_of_dot(const sim::Vec3& u, const sim::Vec3& v) {
+  const double dot = u.dot(v), bound = 1e-15 * u.cwiseAbs().dot(v.cwiseAbs());
+  return dot > bound ? 1 : (dot < -bound ? -1 : 0);
+}
+
+/// Does a plane through `p` part u from v (two points each) strictly? Tries one plane: no means nothing.
+bool parted_at(const sim::Vec3& p, const sim::Vec3& u1, const sim::Vec3& u2, const sim::Vec3& v1, const sim::Vec3& v2) {
+  const sim::Vec3 a = u1 - p, b = u2 - p, c = v1 - p, d = v2 - p;
+  const sim::Vec3 normal = a.normalized() + b.normalized() - c.normalized() - d.normalized();
+  return sure_sign_of_dot(normal, a) > 0 && sure_sign_of_dot(normal, b) > 0 && sure_sign_of_dot(normal, c) < 0 &&
+         sure_sign_of_dot(normal, d) < 0;
+}
+
+/// Triangles a b c and a b f: do they open by more than a right angle? Then their planes' halves beyond the edge have
+/// nothing in common.
+bool opens_wide(const sim::Vec3& a, const sim::Vec3& b, const sim::Vec3& c, const sim::Vec3& f) {
+  const sim::Vec3 edge = b - a, u = c - a, v = f - a;
+  // (edge x u) . (edge x v) = |edge|^2 (u . v) - (edge . u)(edge . v)
+  const double uv = u.dot(v), eu = edge.dot(u), ev = edge.dot(v), ee = edge.squaredNorm();
+  return ee * uv - eu * ev < -1e-14 * ee * u.norm() * v.norm();
+}
+
+/// Triangles without a vertex in common, as `parted_at`: by the plane halfway between their centres.
+bool parted(const sim::Vec3& a, const sim::Vec3& b, const sim::Vec3& c, const sim::Vec3& d, const sim::Vec3& e,
+            const sim::Vec3& f) {
+  const sim::Vec3 normal = (a + b + c) - (d + e + f);
+  for (const sim::Vec3* u : {&a, &b, &c})
+    for (const sim::Vec3* v : {&d, &e, &f})
+      if (sure_sign_of_dot(normal, *u - *v) <= 0) return false;
+  return true;
+}
+
 int visible_axis(const sim::Vec3& a, const sim::Vec3& b, const sim::Vec3& c) {
   for (int drop = 0; drop < 3; ++drop) {
     if (orient2d_sign(a, b, c, drop) != 0) return drop;
@@ -123,6 +161,8 @@ int orient3d_sign(const sim::Vec3& a, const sim::Vec3& b, const sim::Vec3& c, co
   const double bound = 8e-16 * permanent;
   if (det > bound) return 1;
   if (det < -bound) return -1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (lie_in_an_axis_plane(axis, a, b, c) && a[axis] == d[axis]) return 0;
   return orient3d_exact(a, b, c, d);
 }
 
@@ -158,13 +198,16 @@ bool triangles_cross(const std::vector<sim::Vec3>& vertices, const sim::Triangle
     case 3:
       return true;
     case 2: {  // more than the common edge only when folded flat onto each other
+      if (opens_wide(a, b, c, f)) return false;
       if (orient3d_sign(a, b, c, f) != 0) return false;
       const int drop = visible_axis(a, b, c);
       return orient2d_sign(a, b, c, drop) == orient2d_sign(a, b, f, drop);
     }
     case 1:  // a common set beyond the vertex leaves one of them through the edge opposite to it
+      if (parted_at(a, b, c, e, f)) return false;
       return segment_meets_triangle(b, c, d, e, f) || segment_meets_triangle(e, f, a, b, c);
     default:
+      if (parted(a, b, c, d, e, f)) return false;
       return segment_meets_triangle(a, b, d, e, f) || segment_meets_triangle(b, c, d, e, f) ||
              segment_meets_triangle(c, a, d, e, f) || segment_meets_triangle(d, e, a, b, c) ||
              segment_meets_triangle(e, f, a, b, c) || segment_meets_triangle(f, d, a, b, c);

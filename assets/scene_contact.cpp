@@ -6,14 +6,15 @@ namespace softreel::assets {
 
 bool has_touching_surfaces(const Scene& scene) {
   const auto own = [](const Body& body) { return body.contact.self; };
-  const auto twice = [](const ContactPair& p) { return p.touch && p.between[0].name == p.between[1].name; };
-  const bool self = std::any_of(scene.soft.begin(), scene.soft.end(), own) ||
-                    std::any_of(scene.cloth.begin(), scene.cloth.end(), own) ||
-                    std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(), twice);
-  const auto bodies = scene.soft.size() + scene.cloth.size();
+  const auto open = [](const Body& body) { return body.contact.others; };
+  const auto bodies = std::count_if(scene.soft.begin(), scene.soft.end(), open) +
+                      std::count_if(scene.cloth.begin(), scene.cloth.end(), open);
   const auto meshes = std::count_if(scene.colliders.begin(), scene.colliders.end(),
                                     [](const Collider& c) { return c.shape == ColliderShape::kMesh; });
-  return bodies > 0 && (bodies + static_cast<size_t>(meshes) > 1 || self);
+  return (bodies > 0 && bodies + meshes > 1) || std::any_of(scene.soft.begin(), scene.soft.end(), own) ||
+         std::any_of(scene.cloth.begin(), scene.cloth.end(), own) ||
+         std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(),
+                     [](const ContactPair& p) { return p.touch; });
 }
 
 }  // namespace softreel::assets

@@ -96,6 +96,9 @@ void ContactCandidates::begin(const std::vector<Vec3>& x, const std::vector<Vec3
     shift_.push_back(kRoom * reach_ +
                      kRoomOfMove *
                          (mean_move_[static_cast<size_t>(pair.b)] - mean_move_[static_cast<size_t>(pair.a)]).norm());
+  small_ = true;
+  for (const std::vector<double>* rooms : {&radius_, &shift_})
+    for (const double room : *rooms) small_ = small_ && room <= reach_;
   search();
 }
 
@@ -113,15 +116,40 @@ bool ContactCandidates::cover(const std::vector<Vec3>& x) {
   return true;
 }
 
+bool ContactCandidates::covers(const std::vector<Vec3>& x, const std::vector<Vec3>& move) const {
+  if (!holds(x, place_of(x))) return false;
+  std::vector<Vec3> end(x.size());
+  for (size_t v = 0; v < x.size(); ++v) end[v] = x[v] + move[v];
+  return holds(end, place_of(end));
+}
+
 bool ContactCandidates::cover(const std::vector<Vec3>& x, const std::vector<Vec3>& move) {
-  if (holds(x, place_of(x))) {
-    std::vector<Vec3> end(x.size());
-    for (size_t v = 0; v < x.size(); ++v) end[v] = x[v] + move[v];
-    if (holds(end, place_of(end))) return false;
-  }
+  if (covers(x, move)) return false;
   begin(x, move);
   return true;
 }
+
+void ContactCandidates::begin_step(const std::vector<Vec3>& x, const std::vector<Vec3>& move) {
+  if (count() > 0 || lost_ || !small_ || !covers(x, move)) begin(x, move);
+}
+
+namespace {
+
+/// A bound from below of a pair's distance at a tenth of its price: what lies between the two along the line of their
+/// middles. Neighbours in a flat sheet are told apart by it.
+double least_distance(PairKind kind, const FourPoints& x) {
+  const bool point = kind == PairKind::kPointTriangle;
+  const Vec3 a = point ? x[0] : Vec3(0.5 * (x[0] + x[1])),
+             b = point ? Vec3((x[1] + x[2] + x[3]) / 3) : Vec3(0.5 * (x[2] + x[3]));
+  const Vec3 axis = b - a;
+  const double length2 = axis.squaredNorm();
+  if (!(length2 > 0)) return 0;
+  const double p0 = axis.dot(x[0]), p1 = axis.dot(x[1]), p2 = axis.dot(x[2]), p3 = axis.dot(x[3]);
+  const double between = point ? std::min({p1, p2, p3}) - p0 : std::min(p2, p3) - std::max(p0, p1);
+  return between / std::sqrt(length2);
+}
+
+}  // namespace
 
 /// Boxes meet long before features do. Goes along the common way, by pieces on which the pair cannot come nearer than
 /// what it may be off.
@@ -148,7 +176,9 @@ bool ContactCandidates::may_meet(PairKind kind, const SurfacePair& pair, int pai
   for (int piece = 0; piece < kMostPieces; ++piece) {
     FourPoints at;
     for (size_t i = 0; i < 4; ++i) at[i] = x[i] + s * (m[i] - mean);
-    const double room = pair_distance(kind, at) * (1 - 1e-9) - near;
+    // Rounding of either stays far below a billionth of the coordinates' spread.
+    double room = least_distance(kind, at) * (1 - 1e-9) - near;
+    if (!(room > 0) || s + room / fastest < 1) room = pair_distance(kind, at) * (1 - 1e-9) - near;
     if (room <= 0) return true;
     s += room / fastest;
     if (!(s < 1)) return false;
@@ -166,6 +196,13 @@ bool ContactCandidates::close_reach(PairKind kind, const SurfacePair& pair, Cand
   if (gap <= 0) return false;
   c.reach = static_cast<float>(std::min(static_cast<double>(c.reach), kShareOfRest * gap));
   return true;
+}
+
+/// Most are told by where they are now; where they were at rest is looked at for the others.
+bool ContactCandidates::is_candidate(PairKind kind, const SurfacePair& pair, int pair_number, Candidate& c) const {
+  if (!may_meet(kind, pair, pair_number, c)) return false;
+  const float reach = c.reach;
+  return close_reach(kind, pair, c) && (c.reach == reach || may_meet(kind, pair, pair_number, c));
 }
 
 void ContactCandidates::add_features(const BoxTree::Pair& triangles, const SurfacePair& pair, int pair_number,
@@ -186,14 +223,12 @@ void ContactCandidates::add_features(const BoxTree::Pair& triangles, const Surfa
     if (surfaces_.stands_for[t] >> k & 1 && std::find(U.begin(), U.end(), T[k]) == U.end() &&
         meet(vertex_box_[static_cast<size_t>(T[k])], triangle_box_[u])) {
       Candidate c{T[k], triangles.second, reach, pair_number};
-      if (close_reach(PairKind::kPointTriangle, pair, c) && may_meet(PairKind::kPointTriangle, pair, pair_number, c))
-        points.push_back(c);
+      if (is_candidate(PairKind::kPointTriangle, pair, pair_number, c)) points.push_back(c);
     }
     if (surfaces_.stands_for[u] >> k & 1 && std::find(T.begin(), T.end(), U[k]) == T.end() &&
         meet(triangle_box_[t], vertex_box_[static_cast<size_t>(U[k])])) {
       Candidate c{U[k], triangles.first, reach, pair_number};
-      if (close_reach(PairKind::kPointTriangle, pair, c) && may_meet(PairKind::kPointTriangle, pair, pair_number, c))
-        points.push_back(c);
+      if (is_candidate(PairKind::kPointTriangle, pair, pair_number, c)) points.push_back(c);
     }
   }
   for (size_t k = 0; k < 3; ++k) {
@@ -209,8 +244,7 @@ void ContactCandidates::add_features(const BoxTree::Pair& triangles, const Surfa
       if (!meet(box, box_of(others))) continue;
       Candidate c{e, f, reach, pair_number};
       if (pair.a == pair.b && c.a > c.b) std::swap(c.a, c.b);
-      if (close_reach(PairKind::kEdgeEdge, pair, c) && may_meet(PairKind::kEdgeEdge, pair, pair_number, c))
-        edges.push_back(c);
+      if (is_candidate(PairKind::kEdgeEdge, pair, pair_number, c)) edges.push_back(c);
     }
   }
 }

@@ -30,6 +30,10 @@ class ContactCandidates {
 
   /// Looks for pairs around the straight way from `x` to x + `move` (one vector per vertex).
   void begin(const std::vector<Vec3>& x, const std::vector<Vec3>& move);
+  /// The same, but no pairs may stand for what was looked for in an earlier step, if they are complete for this way as
+  /// well: what is far apart stays cheap. It changes `count` alone: no pair there comes nearer than `reach`, and none
+  /// by more than a few times that, so it bounds no step. A run that is taken up again need not know of it.
+  void begin_step(const std::vector<Vec3>& x, const std::vector<Vec3>& move);
   /// Makes the candidates complete for such a way. True if they had to be looked for again.
   bool cover(const std::vector<Vec3>& x, const std::vector<Vec3>& move);
 
@@ -59,12 +63,14 @@ class ContactCandidates {
   Place place_of(const std::vector<Vec3>& x) const;
   double off(const std::vector<Vec3>& x, const Place& place, size_t vertex) const;
   double apart(const Place& place, const SurfacePair& pair) const;
+  bool covers(const std::vector<Vec3>& x, const std::vector<Vec3>& move) const;
   bool holds(const std::vector<Vec3>& x, const Place& place) const;
   void search();
   void refit();
   bool may_meet(PairKind kind, const SurfacePair& pair, int pair_number, const Candidate& c) const;
   void add_features(const BoxTree::Pair& triangles, const SurfacePair& pair, int pair_number, const Box3f* shifts,
                     std::vector<Candidate>& points, std::vector<Candidate>& edges) const;
+  bool is_candidate(PairKind kind, const SurfacePair& pair, int pair_number, Candidate& c) const;
   bool close_reach(PairKind kind, const SurfacePair& pair, Candidate& c) const;
 
   const ContactSurfaces& surfaces_;
@@ -80,7 +86,8 @@ class ContactCandidates {
   std::vector<Candidate> point_triangle_, edge_edge_;
   // Of the extent of the largest surface: beyond it everything would be near everything.
   static constexpr double kFarthest = 4;
-  double extent_ = 0;  // [m]
+  double extent_ = 0;   // [m]
+  bool small_ = false;  // the room around moves is a few times the reach at most
   bool lost_ = false;
   long searches_ = 0;
 };

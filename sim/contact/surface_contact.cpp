@@ -129,7 +129,7 @@ void SurfaceContact::begin_step(const StepContext& context) {
   progress_ = 0;
   surfaces_->gather(context.x, path_, 0, positions_);
   surfaces_->gather_move(context.x_predicted - context.x, path_, 1, moves_);
-  candidates_.begin(positions_, moves_);
+  candidates_.begin_step(positions_, moves_);
   touching_ = active(context.x);
   // Vertices that have come free soften, once a step.
   if (context.t != softened_at_) {

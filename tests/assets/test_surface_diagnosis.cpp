@@ -1,3 +1,6 @@
+#include <random>
+
+#include "assets/crossing_pairs.h"
 #include "assets/exact_predicates.h"
 #include "assets/surface_diagnosis.h"
 #include "assets/surface_import.h"
@@ -129,6 +132,86 @@ TEST_CASE("Triangles that share an edge cross only when folded flat") {
   CHECK_FALSE(assets::triangles_cross(v, {0, 1, 2}, {1, 0, 4}));
   CHECK_FALSE(assets::triangles_cross(v, {0, 1, 2}, {1, 6, 4}));  // a vertex only
   CHECK(assets::triangles_cross(v, {0, 1, 2}, {0, 3, 6}));        // a vertex, and more
+}
+
+namespace {
+
+/// Are the hulls of two sets of points on a lattice apart? By all axes that can tell (normals, products of edges, edges
+/// turned in their plane), in whole numbers below 2^53: exact.
+bool hulls_apart(const std::vector<sim::Vec3>& a, const std::vector<sim::Vec3>& b) {
+  const auto edges = [](const std::vector<sim::Vec3>& p) {
+    std::vector<sim::Vec3> e;
+    for (size_t i = 0; i < p.size(); ++i)
+      for (size_t j = 0; j < i; ++j) e.push_back(p[i] - p[j]);
+    return e;
+  };
+  const std::vector<sim::Vec3> ea = edges(a), eb = edges(b);
+  std::vector<sim::Vec3> axes;
+  for (const auto* p : {&ea, &eb})
+    for (const auto* q : {&ea, &eb})
+      for (const sim::Vec3& u : *p)
+        for (const sim::Vec3& v : *q) {
+          axes.push_back(u.cross(v));
+          for (const sim::Vec3& w : *p) axes.push_back(w.cross(u.cross(v)));
+        }
+  for (const sim::Vec3& axis : axes) {
+    double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+    for (const auto& [k, points] : {std::pair{0, &a}, std::pair{1, &b}})
+      for (const sim::Vec3& x : *points) {
+        low[k] = std::min(low[k], axis.dot(x));
+        high[k] = std::max(high[k], axis.dot(x));
+      }
+    if (high[0] < low[1] || high[1] < low[0]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("On a lattice, where most triangles touch or lie in one plane, crossings are those of exact arithmetic") {
+  std::mt19937 random(5);
+  const auto point = [&](int side) {
+    const auto number = [&] { return static_cast<double>(random() % static_cast<unsigned>(side)); };
+    return sim::Vec3(number(), number(), number());
+  };
+  int crossing[3] = {}, apart[3] = {};
+  for (int trial = 0; trial < 6000; ++trial) {
+    std::vector<sim::Vec3> v;
+    for (int i = 0; i < 6; ++i) v.push_back(point(2 + trial % 4));
+    if (trial % 2)
+      for (sim::Vec3& x : v) x.y() = 1;
+    const int shared = trial / 8 % 3;
+    const sim::Triangle s{0, 1, 2}, t{shared > 0 ? 0 : 3, shared > 1 ? 1 : 4, 5};
+    const auto at = [&](int i) { return v[static_cast<size_t>(i)]; };
+    if (assets::is_flat(at(s[0]), at(s[1]), at(s[2])) || assets::is_flat(at(t[0]), at(t[1]), at(t[2]))) continue;
+    bool expected = false;
+    if (shared == 0)
+      expected = !hulls_apart({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
+    else if (shared == 1)
+      expected = !hulls_apart({v[1], v[2]}, {v[0], v[4], v[5]}) || !hulls_apart({v[4], v[5]}, {v[0], v[1], v[2]});
+    else {
+      const sim::Vec3 n = (v[1] - v[0]).cross(v[2] - v[0]), m = (v[1] - v[0]).cross(v[5] - v[0]);
+      expected = n.cross(m).isZero(0) && n.dot(m) > 0;
+    }
+    CHECK(assets::triangles_cross(v, s, t) == expected);
+    CHECK(assets::triangles_cross(v, t, s) == expected);
+    // The filters decide in rounded arithmetic: the same far from the origin and very small (both exact here).
+    for (sim::Vec3& x : v) x = std::ldexp(1.0, -60) * (x + sim::Vec3(1048576, -4194304, 3));
+    CHECK(assets::triangles_cross(v, s, t) == expected);
+    ++(expected ? crossing : apart)[shared];
+  }
+  for (int shared = 0; shared < 3; ++shared) {
+    CHECK(crossing[shared] > 50);
+    CHECK(apart[shared] > 50);
+  }
+}
+
+TEST_CASE("Only pairs that are wanted are looked at") {
+  sim::TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, -1}, {0.2, 0.2, 1}, {0.3, 0.2, 1}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  CHECK(assets::crossing_pairs(mesh, 10).size() == 1);
+  CHECK(assets::crossing_pairs(mesh, 10, [](int, int) { return false; }).empty());
 }
 
 TEST_CASE("Of the real meshes only the cow crosses itself") {

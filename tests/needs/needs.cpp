@@ -1,8 +1,8 @@
 // Runs the scene of each optional feature (app/features.h), one after the other, for valgrind to count what is
 // executed.
 //   needs --list             the table of features, as JSON
-//   needs FOLDER base|all    runs the base scene (explicit, implicit), or all others too, in FOLDER/NUMBER; callgrind
-//                            dumps after each
+//   needs FOLDER base|pair|all    runs the base scene, it and its implicit sister, or all, each in FOLDER/NUMBER;
+//                                 callgrind dumps after each
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,6 +24,7 @@ nlohmann::json table() {
     list.push_back({{"name", f.name},
                     {"code", f.code},
                     {"brings", f.brings},
+                    {"shares_code", f.shares_code},
                     {"without", f.without},
                     {"stats", f.stats},
                     {"arguments", feature_arguments(&f, "scene.toml")},
@@ -68,11 +69,11 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (argc != 3) {
-    fmt::print(stderr, "usage: needs --list | needs FOLDER base|all\n");
+    fmt::print(stderr, "usage: needs --list | needs FOLDER base|pair|all\n");
     return 2;
   }
   const std::filesystem::path folder = std::filesystem::absolute(argv[1]);
-  const bool all = std::string_view(argv[2]) == "all";
+  const bool all = std::string_view(argv[2]) == "all", pair = std::string_view(argv[2]) == "pair";
   int number = 0;
   const auto next = [&] { return folder / std::to_string(number++); };
   measure(nullptr, next(), false, "base");
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path place = next();
     if (f.drawn)
       write_feature_scene(&f, place);  // compiling its shaders takes minutes here: it is judged by --stats
-    else if (all || f.name == "implicit steps")
+    else if (all || (pair && f.name == "implicit steps"))
       measure(&f, place, false, std::string(f.name));
   }
   if (all) measure(nullptr, next(), true, "base, drawn");

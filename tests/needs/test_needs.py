@@ -128,6 +128,9 @@ class Judge:
             return self.base
         return (self.base - set(row["without"])) | set(row["brings"]) | {row["name"]}
 
+    def runs_code_of(self, row):
+        return self.used(row) | set(row["shares_code"] if row else [])
+
     def check(self, holds, what):
         if not holds:
             self.failures.append(what)
@@ -209,8 +212,8 @@ def check_stats(judge, program, folder):
 
 
 def check_optional_terms(judge, needs, bare, folder):
-    _, full = read_callgrind(callgrind(needs, folder, "base"), LinkerMap(needs))
-    _, without = read_callgrind(callgrind(bare, folder, "base"), LinkerMap(bare))
+    _, full = read_callgrind(callgrind(needs, folder, "pair"), LinkerMap(needs))
+    _, without = read_callgrind(callgrind(bare, folder, "pair"), LinkerMap(bare))
     gone = LinkerMap(needs).files - LinkerMap(bare).files
     judge.check("sim/bending" in gone and "sim/collider_friction" in gone, "terms are still in the bare program")
     for name in ("base", "implicit steps"):
@@ -241,8 +244,7 @@ def main():
         rows = {"base": None, "base, drawn": None}
         rows.update({f["name"]: f for f in judge.features if not f["drawn"]})
         for row_name, row in rows.items():
-            used = judge.used(row)
-            zero += judge.dump(row_name, used, dumps[row_name])
+            zero += judge.dump(row_name, judge.runs_code_of(row), dumps[row_name])
         print(f"calls and instructions: {zero} counts of code that a scene does not use, in {len(rows)} scenes")
         check_allocations(judge, needs, linker_map, folder)
         check_stats(judge, program, folder / "callgrind_all_needs")
