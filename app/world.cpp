@@ -227,7 +227,7 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes) {
       builder.finish(scene.gravity, {scene.damping.drag, scene.damping.alpha, scene.damping.beta}, std::move(colliders),
                      {scene.contact.distance, scene.contact.slip_speed, scene.contact.stiffness.value_or(0),
                       sim::is_implicit(scene.time.integrator) ? 100.0 : sim::kExplicitHardness,
-                      sim::is_implicit(scene.time.integrator) ? 10.0 : 0.0});
+                      sim::is_implicit(scene.time.integrator) ? 1.0 : 0.0});
   if (model.surfaces) settle_overlaps(scene, model);
   if (scene.time.integrator == "static") refuse_free_bodies(scene, model);
   return model;

@@ -14,7 +14,7 @@ struct ContactSettings {
   double slip_speed = 1e-3;  ///< friction holds below [m/s] > 0
   double stiffness = 0;      ///< k [N/m^2] for every vertex; 0: from mass and step
   double hardness = 100;     ///< c in k = c m/(h^2 d_hat), where k comes from mass and step; see kExplicitHardness
-  double material = 10;      ///< between surfaces: k is more by this times the stiffness of the material / d_hat
+  double material = 1;       ///< between surfaces: k is more by this times the stiffness of the material / d_hat
 };
 
 /// What the contact did in a step.

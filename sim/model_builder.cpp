@@ -161,7 +161,8 @@ Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vec
                                      [](const SurfacePair& pair) { return pair.friction > 0; });
       auto contact = std::make_unique<SurfaceContact>(
           std::move(surfaces), m.masses, stiffness(),
-          SurfaceContactSettings{settings.distance, settings.stiffness, settings.hardness, settings.material});
+          SurfaceContactSettings{settings.distance, settings.stiffness, std::min(settings.hardness, kSurfaceHardness),
+                                 settings.material});
       m.surfaces = contact.get();
       if (rough) m.dissipations.push_back(make_surface_friction(*contact, settings.slip_speed));
       m.potentials.push_back(std::move(contact));

@@ -114,6 +114,93 @@ TEST_CASE("twisted cloth and twisted mat do not cross themselves") {
   }
 }
 
+TEST_CASE("a house of seven cards stands for five seconds") {
+  TouchingScene scene;
+  const Vec3 card(0.003, 0.1, 0.06);
+  constexpr double kLean = 20;
+  const double c = std::cos(kLean * std::numbers::pi / 180), n = std::sin(kLean * std::numbers::pi / 180);
+  const double reach = card.x() / 2 * c + card.y() / 2 * n, half = card.x() / 2 * n + card.y() / 2 * c, gap = 1e-3;
+  int cards = 0;
+  const auto add = [&](double x, double y, double degrees) {
+    scene.add_solid("card " + std::to_string(++cards),
+                    moved(block_of_tets(card, 1, 6, 4), Vec3(x, y, 0), Vec3(0, 0, degrees)),
+                    {"stable-neo-hookean", 1e7, 0.3, 700}, 0.6);
+  };
+  const auto lean_two = [&](double x, double floor) {
+    add(x - reach - gap / 2, floor + gap + half, -kLean);
+    add(x + reach + gap / 2, floor + gap + half, kLean);
+    return floor + gap + 2 * half;
+  };
+  lean_two(-0.0395, 0);
+  const double top = lean_two(0.0395, 0);
+  add(0, top + gap + card.x() / 2, 90);
+  lean_two(0, top + gap + card.x());
+  Collider ground;
+  ground.friction = 0.6;
+  scene.colliders.push_back(ground);
+  scene.contact.distance = gap;
+  Simulation s = scene.start();
+  const Eigen::VectorXd start = s.state().x;
+  run_without_crossing(s, 1.0 / 60, 300);
+  CHECK((s.state().x - start).cwiseAbs().maxCoeff() < 0.1 * card.y());  // a card that falls goes by half its height
+  CHECK(s.energies().kinetic < 1e-6);
+}
+
+TEST_CASE("a knot is pulled tight and holds") {
+  TouchingScene scene;
+  scene.gravity = Vec3::Zero();
+  // An open trefoil (Shastri 1992, "Polynomial representations of knots"), 1/10 m to its unit.
+  static constexpr double kUnit = 0.1, kEnd = 2.1, kThickness = 0.02;
+  const auto curve = [](double t) -> Vec3 {
+    return Vec3(t * t * t - 3 * t, t * t * t * t - 4 * t * t, std::pow(t, 5) / 5 - 2 * t) * kUnit;
+  };
+  constexpr int kCells = 90;
+  TetMesh rope = block_of_tets(Vec3(2 * kEnd, kThickness, kThickness), kCells, 2, 2);
+  // Cross-sections of equal distance along the curve, turned as little as can be from one to the next.
+  std::vector<double> length{0}, parameter{-kEnd};
+  for (int i = 1; i <= 4000; ++i) {
+    parameter.push_back(-kEnd + 2 * kEnd * i / 4000.0);
+    length.push_back(length.back() +
+                     (curve(parameter[parameter.size() - 1]) - curve(parameter[parameter.size() - 2])).norm());
+  }
+  std::vector<Vec3> middle, across, up;
+  for (int i = 0; i <= kCells; ++i) {
+    const double at = length.back() * i / kCells;
+    const auto k = static_cast<size_t>(std::lower_bound(length.begin(), length.end(), at) - length.begin());
+    const double t = parameter[std::min(k, parameter.size() - 1)];
+    const Vec3 tangent = (curve(t + 1e-5) - curve(t - 1e-5)).normalized();
+    const Vec3 before = across.empty() ? Vec3(0, 0, 1) : across.back();
+    middle.push_back(curve(t));
+    across.push_back((before - before.dot(tangent) * tangent).normalized());
+    up.push_back(tangent.cross(across.back()));
+  }
+  Pin ends[2];
+  for (size_t k = 0; k < rope.vertices.size(); ++k) {
+    Vec3& v = rope.vertices[k];
+    if (std::abs(v.x()) > kEnd - 1e-9) ends[v.x() > 0].vertices.push_back(static_cast<int>(k));
+    const auto i = static_cast<size_t>(std::lround((v.x() + kEnd) / (2 * kEnd) * kCells));
+    v = middle[i] + v.z() * across[i] - v.y() * up[i];
+  }
+  for (const Tet& t : rope.tets)
+    REQUIRE(tet_volume(rope.vertices[static_cast<size_t>(t[0])], rope.vertices[static_cast<size_t>(t[1])],
+                       rope.vertices[static_cast<size_t>(t[2])], rope.vertices[static_cast<size_t>(t[3])]) > 0);
+  scene.add_solid("rope", rope, {"stable-neo-hookean", 1e5, 0.3, 500}, 0.2, true);
+  const Vec3 way = (middle.back() - middle.front()).normalized();
+  const double slack = length.back() - (middle.back() - middle.front()).norm();
+  for (const int end : {0, 1}) {
+    ends[end].motion =
+        Motion({{0, {0, 0, 0}, {0, 0, 0}}, {3, (end ? 0.49 : -0.49) * slack * way, {0, 0, 0}}}, {0, 0, 0});
+    scene.builder.add_pin(ends[end]);
+  }
+  Simulation s = scene.start();
+  MESSAGE("rope of ", length.back(), " m, slack ", slack, " m, crossings at first ", tests::crossing_count(s));
+  run_without_crossing(s, 1.0 / 60, 180);
+  // A knot: what is between its ends is longer than the way from end to end, by what the knot takes.
+  const auto report = s.model().surfaces->report(s.state().x);
+  MESSAGE("active ", report.active, ", smallest gap ", report.smallest_gap);
+  CHECK(report.active > 0);
+}
+
 TEST_CASE("a plate drives a soft ball through a ring of half its diameter") {
   TouchingScene scene;
   scene.gravity = Vec3::Zero();
