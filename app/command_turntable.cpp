@@ -7,19 +7,16 @@
 #include "app/clip_run.h"
 #include "app/convert.h"
 #include "app/drawn_surface.h"
-#include "app/exit_code.h"
-#include "app/frame_range.h"
 #include "app/interrupt.h"
-#include "app/output_check.h"
 #include "app/progress.h"
+#include "app/turntable_pictures.h"
 #include "app/turntable_scene.h"
-#include "app/video.h"
 #include "assets/error.h"
+#include "assets/scene.h"
 #include "assets/scene_colors.h"
 #include "assets/surface_import.h"
 #include "assets/tet_file.h"
 #include "render/environment.h"
-#include "render/frame_writer.h"
 #include "render/renderer.h"
 
 namespace softreel::app {
@@ -41,10 +38,7 @@ assets::ImportedSurface load(const TurntableArguments& a) {
 int run_turntable(const TurntableArguments& a) {
   if (std::filesystem::path(a.mesh).extension() == ".toml") return run_turntable_scene(a);
   use_threads(a.threads);
-  if (!a.video.empty()) check_video(a.video);
-  const std::filesystem::path output =
-      a.output.empty() ? std::filesystem::path("out") / (std::filesystem::path(a.mesh).stem().string() + "-turntable")
-                       : std::filesystem::path(a.output);
+  const std::filesystem::path output = turntable_output(a);
   assets::Look look;
   if (!a.color.empty()) {
     look.color = assets::parse_color(a.color);
@@ -53,7 +47,6 @@ int run_turntable(const TurntableArguments& a) {
           assets::ErrorKind::kUsage,
           fmt::format("--color {}: expected \"#rrggbb\" or a colour's name such as \"red\"", a.color));
   }
-  check_output_folder(output);
   const assets::ImportedSurface surface = load(a);
   for (const std::string& name : surface.missing_textures)
     say(a.quiet, fmt::format("note: texture '{}' was not found; drawn without", name));
@@ -73,33 +66,23 @@ int run_turntable(const TurntableArguments& a) {
   const glm::vec3 axis = bounds.centre();
   const render::Camera camera =
       render::frame_turntable(points, axis, 35, static_cast<float>(a.size[0]) / static_cast<float>(a.size[1]));
-  const render::Stage stage = render::default_stage(bounds, camera, true, bounds.low.y);
-
-  render::FrameWriter writer(1);
-  std::vector<std::filesystem::path> files;
-  {
-    Progress progress("turntable", a.count, a.quiet);
-    for (int i = 0; i < a.count && !interrupted(); ++i) {
-      // The mesh turns, the light stays; picture `count` would be picture 0 again.
-      const double angle = 2 * M_PI * i / a.count;
-      Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-      const Eigen::Vector3d centre(axis.x, axis.y, axis.z);
-      turn.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
-      turn.translation() = centre - turn.linear() * centre;
-      renderer.set_transform(mesh, to_glm(turn));
-      files.push_back(output / frame_file_name(i + 1));
-      writer.write(files.back(), renderer.render(camera, stage.lights, stage.environment),
-                   {{"Software", "softreel " + version()},
-                    {"softreel:frame", std::to_string(i + 1)},
-                    {"softreel:driver", renderer.driver()}});
-      progress.advance();
-    }
-  }
-  writer.finish();
-  stop_if_interrupted();
-  if (!a.video.empty()) write_video(a.video, files, a.fps);
-  if (!a.quiet) fmt::print("{}\n{}\n", files.front().string(), a.video.empty() ? files.back().string() : a.video);
-  return kDone;
+  render::Stage stage = render::default_stage(bounds, camera, true, bounds.low.y);
+  // As a scene that says nothing of its picture.
+  const assets::Render usual;
+  stage.environment.sky_shadow = usual.sky_shadow;
+  stage.environment.background_top = to_linear(usual.background.top);
+  stage.environment.background_bottom = to_linear(usual.background.bottom);
+  stage.environment.ground.look.color = to_linear(usual.ground.color);
+  stage.environment.ground.look.roughness = static_cast<float>(usual.ground.roughness);
+  return write_turntable(a, output, renderer.driver(), [&](double angle) {
+    // The mesh turns, the light stays.
+    Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+    const Eigen::Vector3d centre(axis.x, axis.y, axis.z);
+    turn.linear() = Eigen::AngleAxisd(angle * M_PI / 180, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    turn.translation() = centre - turn.linear() * centre;
+    renderer.set_transform(mesh, to_glm(turn));
+    return renderer.render(camera, stage.lights, stage.environment);
+  });
 }
 
 }  // namespace softreel::app

@@ -112,6 +112,7 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
   counter("mesh_uploads", c.mesh_uploads);
   counter("passes", c.passes);
   counter("shadow_passes", c.shadow_passes);
+  counter("pictures_reused", c.pictures_reused);
   counter("draw_calls", c.draw_calls);
   if (!run.pictures.empty() && run.pictures.front().error)
     for (const render::PictureReport& picture : run.pictures) {

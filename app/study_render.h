@@ -4,8 +4,8 @@
 
 namespace softreel::app {
 
-/// Renders one frame with 1, 2, 4, ..., 256 samples and measures each against 1024: table, CSV, and a plot where
-/// gnuplot is there.
+/// Renders one frame with 1, 2, 4, ..., 256 samples and with the presets, and measures each against
+/// 1024 (RMS and FLIP): table, pictures.csv, pictures.json, and a plot where gnuplot is there.
 int run_study_render(const StudyArguments& arguments);
 
 }  // namespace softreel::app

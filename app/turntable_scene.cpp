@@ -5,14 +5,9 @@
 #include <charconv>
 
 #include "app/clip_run.h"
-#include "app/exit_code.h"
-#include "app/frame_range.h"
-#include "app/interrupt.h"
-#include "app/progress.h"
 #include "app/stage.h"
-#include "app/video.h"
+#include "app/turntable_pictures.h"
 #include "assets/error.h"
-#include "render/frame_writer.h"
 
 namespace softreel::app {
 namespace {
@@ -37,11 +32,7 @@ int run_turntable_scene(const TurntableArguments& a) {
   clip.overrides.push_back(fmt::format("render.samples={}", a.samples));
   clip.quiet = a.quiet;
   clip.threads = a.threads;
-  clip.output =
-      a.output.empty()
-          ? (std::filesystem::path("out") / (std::filesystem::path(a.mesh).stem().string() + "-turntable")).string()
-          : a.output;
-  if (!a.video.empty()) check_video(a.video);
+  clip.output = turntable_output(a).string();
   ClipPlan plan = plan_clip(clip);
   const int number = frame_number(a.frame, plan.scene.time.frames());
   const Shapes shapes = simulate_plan(plan, number, a.quiet);
@@ -55,24 +46,9 @@ int run_turntable_scene(const TurntableArguments& a) {
   const auto fov = static_cast<float>(plan.scene.camera.fov);
   const render::Camera first =
       render::frame_turntable(extent.points, axis, fov, static_cast<float>(a.size[0]) / static_cast<float>(a.size[1]));
-  render::FrameWriter writer(1);
-  std::vector<std::filesystem::path> files;
-  {
-    Progress progress("turntable", a.count, a.quiet);
-    for (int i = 0; i < a.count && !interrupted(); ++i) {
-      files.push_back(plan.output / frame_file_name(i + 1));
-      // Picture `count` would be picture 0 again.
-      const float angle = 360.0f * static_cast<float>(i) / static_cast<float>(a.count);
-      writer.write(files.back(), stage.draw_from(*frame, render::orbit(first, axis, angle)),
-                   {{"Software", "softreel " + version()}, {"softreel:frame", std::to_string(i + 1)}});
-      progress.advance();
-    }
-  }
-  writer.finish();
-  stop_if_interrupted();
-  if (!a.video.empty()) write_video(a.video, files, a.fps);
-  if (!a.quiet) fmt::print("{}\n{}\n", files.front().string(), a.video.empty() ? files.back().string() : a.video);
-  return kDone;
+  return write_turntable(a, plan.output, stage.renderer().driver(), [&](double angle) {
+    return stage.draw_from(*frame, render::orbit(first, axis, static_cast<float>(angle)));
+  });
 }
 
 }  // namespace softreel::app

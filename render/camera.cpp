@@ -51,6 +51,18 @@ struct AxisFit {
   double centre() const { return 0.5 * (high + low); }
 };
 
+/// Where the camera, at distance `back`, stands along an axis so that both sides have the same margin. `fit_for` gives
+/// the AxisFit for a tangent of half the angle of view; the angle into which the points just fit from there has it.
+template <typename FitFor>
+double centre_from(double back, double widest, const FitFor& fit_for) {
+  double narrow = 0, wide = widest;  // distance() falls with k
+  for (int halving = 0; halving < 24; ++halving) {
+    const double k = 0.5 * (narrow + wide);
+    (fit_for(k).distance() > back ? narrow : wide) = k;
+  }
+  return fit_for(wide).centre();
+}
+
 Camera camera_at(const Frame& frame, double right, double up, double back, double depth_of_target, float fov) {
   Camera camera;
   camera.fov = fov;
@@ -149,7 +161,18 @@ Camera frame_points(std::span<const glm::vec3> points, float fov, float aspect, 
   const double size =
       std::max({nearest - farthest, across.distance() * across.k, upright.distance() * upright.k, 1e-3});
   const double back = std::max({across.distance(), upright.distance(), nearest + 0.05 * size});
-  return camera_at(frame, across.centre(), upright.centre(), back, 0.5 * (nearest + farthest), fov);
+  const auto fit_along = [&](const glm::dvec3& axis) {
+    return [&, axis](double k) {
+      AxisFit fit{k};
+      for (const glm::vec3& point : points) {
+        const glm::dvec3 p(point);
+        fit.add(glm::dot(p, axis), glm::dot(p, axis), glm::dot(p, frame.back));
+      }
+      return fit;
+    };
+  };
+  return camera_at(frame, centre_from(back, across.k, fit_along(frame.right)),
+                   centre_from(back, upright.k, fit_along(frame.up)), back, 0.5 * (nearest + farthest), fov);
 }
 
 Camera frame_points_orthographic(std::span<const glm::vec3> points, float aspect, const glm::vec3& direction,
@@ -215,7 +238,20 @@ Camera frame_turntable(std::span<const glm::vec3> points, const glm::vec3& axis,
   }
   const double size = std::max({nearest - farthest, high - low, 1e-3});
   const double back = std::max({distance, 0.5 * (high - low) / k_up, nearest + 0.05 * size});
-  Camera camera = camera_at(frame, 0, 0.5 * (high + low), back, 0.5 * (nearest + farthest), fov);
+  std::vector<glm::dvec2> circles;  // radius, height
+  for (const glm::vec3& point : points)
+    circles.emplace_back(std::hypot(point.x - foot.x, point.z - foot.z), static_cast<double>(point.y));
+  const double middle = centre_from(back, k_up, [&](double k) {
+    const glm::dvec3 form_high = frame.up + k * frame.back, form_low = frame.up - k * frame.back;
+    const double wide_high = horizontal(form_high), wide_low = horizontal(form_low);
+    AxisFit fit{k};
+    for (const glm::dvec2& circle : circles) {
+      fit.high = std::max(fit.high, form_high.y * circle.y + circle.x * wide_high);
+      fit.low = std::min(fit.low, form_low.y * circle.y - circle.x * wide_low);
+    }
+    return fit;
+  });
+  Camera camera = camera_at(frame, 0, middle, back, 0.5 * (nearest + farthest), fov);
   camera.position += glm::vec3(foot);
   camera.target += glm::vec3(foot);
   return camera;

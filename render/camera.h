@@ -19,6 +19,7 @@ struct Camera {
   float aperture = 0;  ///< diameter of the thin lens [m]; 0: a pinhole, everything is sharp. Perspective only
   float focus = 0;     ///< distance along the view at which things are sharp [m]; 0: that of `target`
   bool orthographic() const { return height > 0; }
+  bool operator==(const Camera&) const = default;
 };
 
 glm::mat4 camera_from_world(const Camera& camera);

@@ -20,6 +20,7 @@ struct Ground {
   float fade_end = 25;          ///< distance from which only the background is seen [m]
   bool catches_shadow = false;  ///< invisible itself: only the light that bodies take away darkens the background
   Look look;                    ///< matte: its color and pattern
+  bool operator==(const Ground&) const = default;
 };
 
 class Panorama;
@@ -38,6 +39,7 @@ struct Environment {
   glm::vec3 background_bottom{0.56f, 0.56f, 0.56f};  ///< same as top: a plain background
   bool transparent = false;                          ///< leave the background out: alpha 0 where nothing is drawn
   float exposure = 1;                                ///< factor on all radiance before the tone curve, > 0
+  bool operator==(const Environment&) const = default;
 };
 
 /// Good defaults for a scene that says nothing about light: a soft key light over the viewer's shoulder and a sky,

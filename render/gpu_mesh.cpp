@@ -71,8 +71,15 @@ void GpuMesh::set_values(std::span<const float> values) {
   if (values.size() != mesh_.position_count)
     throw std::invalid_argument(
         fmt::format("{} values for a mesh of {} positions", values.size(), mesh_.position_count));
-  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = values[mesh_.position_of[i]];
+  bool same = true;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const float value = values[mesh_.position_of[i]];
+    same = same && values_[i] == value;
+    values_[i] = value;
+  }
+  if (same) return;
   values_waiting_ = true;
+  ++revision_;
 }
 
 void GpuMesh::set_positions(std::span<const glm::vec3> positions) {
@@ -86,6 +93,7 @@ void GpuMesh::set_positions(std::span<const glm::vec3> positions) {
   bounds_ = {};
   bounds_.add(positions);
   waiting_ = true;
+  ++revision_;
 }
 
 void GpuMesh::upload(RenderCounters& counters) {

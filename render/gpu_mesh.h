@@ -25,6 +25,8 @@ class GpuMesh {
   /// Draws triangles [first, first + count).
   void draw(std::size_t first_triangle, std::size_t triangle_count) const;
 
+  /// Another number whenever positions or values are others.
+  std::size_t revision() const { return revision_; }
   bool has_positions() const { return !positions_.empty(); }
   std::size_t position_count() const { return mesh_.position_count; }
   std::size_t triangle_count() const { return mesh_.triangles.size(); }
@@ -60,6 +62,7 @@ class GpuMesh {
   std::vector<Vertex> vertices_;
   Bounds bounds_;  ///< mesh space
   bool waiting_ = false;
+  std::size_t revision_ = 0;
   std::vector<float> values_;  ///< per render vertex, of a field
   bool values_waiting_ = false;
   GlBuffer vertex_buffer_;

@@ -24,6 +24,7 @@ struct Light {
   glm::vec3 color{1, 1, 1};        ///< linear
   float intensity = 1;             ///< >= 0
   bool casts_shadow = true;        ///< without, no shadow map is made for it
+  bool operator==(const Light&) const = default;
 };
 
 /// A sphere light whose `intensity` holds at `target`.

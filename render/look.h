@@ -39,6 +39,7 @@ struct Look {
   float pattern_size = 0.1f;      ///< of a field [m]
   std::optional<glm::vec3> wire;  ///< colour of the triangles' edges, drawn over the surface, linear
   bool emits() const { return emission != glm::vec3(0); }
+  bool operator==(const Look&) const = default;
 };
 
 /// From sRGB components 0..1 (IEC 61966-2-1) to linear ones.

@@ -12,6 +12,7 @@
 #include "render/gl_context.h"
 #include "render/gpu_mesh.h"
 #include "render/pass_setup.h"
+#include "render/picture_inputs.h"
 #include "render/picture_targets.h"
 #include "render/programs.h"
 #include "render/sampling.h"
@@ -70,6 +71,19 @@ struct Renderer::State {
   std::optional<ShadowMaps> shadow_maps;
   std::vector<std::unique_ptr<GpuMesh>> meshes;
   std::unique_ptr<GpuMesh> ground;
+  struct LastPicture {
+    PictureInputs inputs;
+    Image picture;
+    PictureReport report;
+  };
+  std::optional<LastPicture> last_picture;  // one drawn with the shutter closed
+
+  PictureInputs inputs(const Camera& camera, std::span<const Light> lights, const Environment& environment) const {
+    PictureInputs result{camera, {lights.begin(), lights.end()}, environment, options.seed, {}};
+    for (const auto& mesh : meshes)
+      result.meshes.push_back({mesh->revision(), mesh->world_from_mesh, mesh->visible, mesh->casts_shadow});
+    return result;
+  }
 
   GpuMesh& mesh(MeshId id) {
     if (id >= meshes.size()) throw std::invalid_argument(fmt::format("mesh {} of {}", id, meshes.size()));
@@ -336,7 +350,17 @@ FloatImage Renderer::render_linear(const Camera& camera, std::span<const Light> 
 
 Image Renderer::render(const Camera& camera, std::span<const Light> lights, const Environment& environment,
                        const Shutter& shutter) {
-  return develop(render_linear(camera, lights, environment, shutter), environment);
+  if (shutter) return develop(render_linear(camera, lights, environment, shutter), environment);
+  State& s = *state_;
+  PictureInputs inputs = s.inputs(camera, lights, environment);
+  if (s.last_picture && s.last_picture->inputs == inputs) {
+    ++s.counters.pictures_reused;
+    s.report = s.last_picture->report;
+    return s.last_picture->picture;
+  }
+  Image picture = develop(render_linear(camera, lights, environment), environment);
+  s.last_picture = {std::move(inputs), picture, s.report};
+  return picture;
 }
 
 Channels Renderer::render_channels(const Camera& camera, const Environment& environment) {

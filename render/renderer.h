@@ -78,7 +78,8 @@ class Renderer {
   /// Box around all visible meshes as they are now, world space.
   Bounds bounds() const;
 
-  /// One picture. The same input gives the same bits on one machine, for any thread count. `shutter`: for motion blur,
+  /// One picture. The same input gives the same bits on one machine, for any thread count; where nothing at all has
+  /// changed since the picture before, seed included, that one is returned again. `shutter`: for motion blur,
   /// called before each pass; empty: everything stands still.
   Image render(const Camera& camera, std::span<const Light> lights, const Environment& environment,
                const Shutter& shutter = {});

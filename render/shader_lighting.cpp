@@ -111,7 +111,10 @@ vec3 lit_by_sky(Surface s, vec3 facet) {
   float n_dot_l = dot(s.normal, towards);
   if (n_dot_l > 0) {
     vec3 plane = dot(facet, towards) > 0 ? facet : s.normal;
-    float hidden = 1 - light_visible(SKY_SHADOW, s.position, plane, clamp(dot(plane, towards), 0, 1));
+    // What hides the sky throws back light of its own: taken for a surface of middle grey in half shade. Without it, what lies
+    // under a sheet would be black.
+    const float kThrownBack = 0.2;
+    float hidden = (1 - kThrownBack) * (1 - light_visible(SKY_SHADOW, s.position, plane, clamp(dot(plane, towards), 0, 1)));
     // In the mean over all passes no more than there is; the gloss loses as large a part as the matte light.
     vec3 taken = hidden * n_dot_l * pass.sky_part.rgb;
     glow -= s.diffuse * taken;

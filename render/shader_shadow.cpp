@@ -17,10 +17,12 @@ float linear_depth(vec4 range, float z) {
   return range.z > 0.5 ? range.x * range.y / (range.y - z * (range.y - range.x)) : mix(range.x, range.y, z);
 }
 
-// J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014: neighbours get turns that differ evenly.
-float pixel_turn() {
-  vec2 p = gl_FragCoord.xy + 5.588238 * pass.camera.w;
-  return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715))));
+// Turn and radius of a pixel's taps. J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014:
+// neighbours get turns that differ evenly. From pass to pass both go along M. Roberts' R2 sequence (2018), so that what few
+// taps miss is what the other passes look at, and no grain is left of it in the mean.
+vec2 pixel_offset() {
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  return fract(vec2(noise, 0.5) + vec2(0.5698402910, 0.7548776662) * pass.camera.w);
 }
 
 // Points evenly over the unit disc (H. Vogel, Mathematical Biosciences 44, 1979): each is turned by the golden angle
@@ -60,7 +62,8 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   search = max(search, 1.2 * texel_uv);
 
   // A direction on the half circle, without trigonometry.
-  float turn = 2 * pixel_turn() - 1;
+  vec2 offset = pixel_offset();
+  float turn = 2 * offset.x - 1;
   vec2 first_direction = vec2(1 - turn * turn, 2 * turn) / (1 + turn * turn);
   vec2 direction = first_direction;
   float blocker = 0;
@@ -82,7 +85,7 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
   direction = first_direction;
   float light = 0;
   for (int i = 0; i < taps; ++i) {
-    vec2 d = sqrt((float(i) + 0.5) / SHADOW_TAPS) * direction * radius;
+    vec2 d = sqrt((float(i) + offset.y) / SHADOW_TAPS) * direction * radius;
     direction = kGoldenTurn * direction;
     light += texture(shadow_compare, vec4(p.xy + d, map, min(z + dot(d, slope), kFarthest)));
   }

@@ -2,6 +2,7 @@
 // and scenes whose light or camera makes little sense.
 #include <cmath>
 
+#include "assets/atomic_file.h"
 #include "render/image_io.h"
 #include "tests/app/clip.h"
 
@@ -183,20 +184,62 @@ TEST_CASE(
     "Scenes without light, with the camera or the light inside a body come out as pictures, one without bodies is "
     "refused") {
   const test::TempFolder folder;
-  pictures_of(
+  // The sum of the colours in the middle of the only picture.
+  const auto middle = [](const std::filesystem::path& out) {
+    const render::Image image = frame(out, "frame_0001.png");
+    const std::uint8_t* pixel = image.pixel(image.width / 2, image.height / 2);
+    return pixel[0] + pixel[1] + pixel[2];
+  };
+  // No light at all: what is there is black, and the background is as asked for.
+  const auto dark = pictures_of(
       folder, "dark",
       "light = []\n[[cloth]]\ngrid = { size = [1, 1], cells = [2, 2] }\n[time]\nduration = 0.03\n[render]\nsize = "
-      "[32, 24]\nsky = 0\n");
+      "[32, 24]\nsky = 0\nbackground = \"white\"\nground = \"off\"\n");
+  CHECK(middle(dark) == 0);
+  CHECK(int(frame(dark, "frame_0001.png").pixel(0, 0)[0]) == 245);  // "white" is #f5f5f5
   // Without anything that moves there is no clip, which is said.
   const std::string empty =
       folder.write("empty.toml", "[[collider]]\nshape = \"plane\"\n[render]\nsize = [32, 24]\n").string();
   const test::RunResult refused = test::run({"render", empty, "-o", (folder / "empty").string()});
   CHECK(refused.code == 2);
   CHECK(refused.err.find("there is nothing to simulate") != std::string::npos);
+  // From inside a solid its faces are seen from behind, so it is not there: the picture is the background.
   std::string inside = thrown();
   inside.replace(inside.find("position = [0.2, 0, 3]"), 22, "position = [0.0, 0, 0.05]");
-  pictures_of(folder, "inside", inside, {"--frames", "1"});
+  const render::Image seen = frame(pictures_of(folder, "inside", inside, {"--frames", "1"}), "frame_0001.png");
+  CHECK(int(seen.pixel(0, 12)[0]) == int(seen.pixel(32, 12)[0]));
+  // A light inside a body lights nothing outside of it; the sky does.
   std::string lit = thrown();
   lit.replace(lit.find("kind = \"sun\""), 12, "position = [0, 0, 0]\nradius = 0.05");
-  pictures_of(folder, "lit", lit, {"--frames", "1"});
+  std::string unlit = thrown();
+  unlit.replace(unlit.find("kind = \"sun\""), 12, "intensity = 0");
+  CHECK(std::abs(middle(pictures_of(folder, "lit", lit, {"--frames", "1"})) -
+                 middle(pictures_of(folder, "unlit", unlit, {"--frames", "1"}))) <= 3);
+}
+
+TEST_CASE("study --render measures samples and presets by RMS and FLIP, and both fall with the samples") {
+  const test::TempFolder folder;
+  std::string text = thrown();
+  text.insert(text.find("kind = \"sun\""), "shadow = false\n");  // two thousand passes, each without a map
+  const std::string scene = folder.write("clip.toml", text).string();
+  const test::RunResult result =
+      test::run({"study", scene, "--render", "-o", (folder / "out").string(), "--set", "render.size=[32, 24]", "--set",
+                 "render.sky_shadow=false", "--repeats", "1"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const nlohmann::json study = nlohmann::json::parse(assets::read_file(folder / "out" / "pictures.json"));
+  const nlohmann::json& rows = study["rows"];
+  REQUIRE(rows.size() == 12);  // 1, 2, 4, ..., 256, and three presets
+  CHECK(rows[0]["samples"] == 1);
+  CHECK(rows[8]["samples"] == 256);
+  for (const char* error : {"rms_levels", "flip"}) {
+    CHECK(rows[8][error] > 0);
+    CHECK(rows[4][error] < rows[0][error]);
+    CHECK(rows[8][error] < rows[4][error]);
+    CHECK(rows[10][error] == rows[4][error]);  // the preset default is 16 samples
+  }
+  CHECK(rows[9]["preset"] == "draft");
+  CHECK(rows[11]["preset"] == "final");
+  CHECK(result.out.find("FLIP") != std::string::npos);
+  CHECK(assets::read_file(folder / "out" / "pictures.csv").starts_with("samples,preset,seconds,rms_levels,flip\n1,,"));
 }

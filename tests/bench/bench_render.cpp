@@ -1,5 +1,6 @@
-// Milliseconds per frame for a mesh of 131,072 triangles at 1280 x 720, and the whole program for one frame of it from
-// an OBJ file. Prints medians; judges nothing.
+// Milliseconds per frame for a mesh of 131,072 triangles at 1280 x 720, the whole program for one frame and for a
+// turntable of it from an OBJ file, start-up, and what a frame costs against triangles, pixels and samples. Prints
+// medians; judges nothing.
 //
 //   build/release/tests/bench_render [FRAMES]
 #include <algorithm>
@@ -66,28 +67,67 @@ void frames(int samples, bool shadow, int count) {
   std::fflush(stdout);
 }
 
-void whole_program(int samples, int count) {
+/// Cost of a frame that moves, and of drawing the same frame again without new positions and tone curve: the share of
+/// the raw draw.
+void cost(const char* what, int cells, int width, int height, int samples, int count) {
+  Renderer renderer({width, height, samples, 0, 0});
+  const Shape plane = make_plane(2, 2, cells);
+  Look look;
+  look.two_sided = true;
+  const MeshId mesh = renderer.add_mesh(plane.mesh, {look});
+  Bounds bounds;
+  bounds.add(waves(plane.positions, 0));
+  const Camera camera = frame_bounds(bounds, 35, static_cast<float>(width) / static_cast<float>(height));
+  const Stage stage = default_stage(bounds, camera, true, -0.5f);
+  std::vector<double> frame, draw;
+  for (int f = 0; f <= count; ++f) {
+    const std::vector<glm::vec3> positions = waves(plane.positions, f / 30.0);
+    const double whole = seconds([&] {
+      renderer.set_positions(mesh, positions);
+      renderer.render(camera, stage.lights, stage.environment);
+    });
+    const double raw = seconds([&] { renderer.render_linear(camera, stage.lights, stage.environment); });
+    if (f == 0) continue;
+    frame.push_back(whole);
+    draw.push_back(raw);
+  }
+  std::printf("%-10s %7d triangles %4d x %4d %3d samples: %8.1f ms, of which drawing %8.1f ms (%3.0f %%)\n", what,
+              2 * cells * cells, width, height, samples, 1e3 * median(frame), 1e3 * median(draw),
+              100 * median(draw) / median(frame));
+  std::fflush(stdout);
+}
+
+void write_obj(const std::filesystem::path& file, int cells) {
+  const Shape plane = make_plane(2, 2, cells);
+  std::ofstream out(file);
+  for (const glm::vec3& p : waves(plane.positions, 0)) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (const glm::uvec3& t : plane.mesh.triangles)
+    out << "f " << plane.mesh.position_of[t.x] + 1 << ' ' << plane.mesh.position_of[t.y] + 1 << ' '
+        << plane.mesh.position_of[t.z] + 1 << '\n';
+}
+
+/// The program from its start to its end, for a turntable of a mesh of `cells` x `cells` squares.
+void whole_program(const char* what, int cells, const std::string& options, int count) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "softreel_bench";
   std::filesystem::create_directories(folder);
   const std::filesystem::path obj = folder / "waves.obj";
-  {
-    const Shape plane = make_plane(2, 2, kCells);
-    std::ofstream out(obj);
-    for (const glm::vec3& p : waves(plane.positions, 0)) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-    for (const glm::uvec3& t : plane.mesh.triangles)
-      out << "f " << plane.mesh.position_of[t.x] + 1 << ' ' << plane.mesh.position_of[t.y] + 1 << ' '
-          << plane.mesh.position_of[t.z] + 1 << '\n';
-  }
-  const std::string command = std::string(SOFTREEL_PROGRAM) + " turntable " + obj.string() +
-                              " --count 1 -q --samples " + std::to_string(samples) + " -o " +
+  write_obj(obj, cells);
+  const std::string command = std::string(SOFTREEL_PROGRAM) + " turntable " + obj.string() + " -q " + options + " -o " +
                               (folder / "frames").string();
   std::vector<double> runs;
   for (int i = 0; i < count; ++i)
     runs.push_back(seconds([&] {
       if (std::system(command.c_str()) != 0) std::printf("failed: %s\n", command.c_str());
     }));
-  std::printf("whole program, one frame from OBJ, %2d samples: %7.1f ms\n", samples, 1e3 * median(runs));
+  std::printf("whole program, %-40s %8.1f ms\n", what, 1e3 * median(runs));
+  std::fflush(stdout);
   std::filesystem::remove_all(folder);
+}
+
+void start_up(int count) {
+  std::vector<double> runs;
+  for (int i = 0; i < count; ++i) runs.push_back(seconds([] { const Renderer renderer({16, 16, 1, 0, 0}); }));
+  std::printf("a renderer from nothing to its first GL calls            %8.1f ms\n", 1e3 * median(runs));
 }
 
 }  // namespace
@@ -97,7 +137,15 @@ int main(int argc, char** argv) {
   std::printf("131,072 moving triangles on a ground, 1280 x 720, medians of %d\n", count);
   for (const int samples : {1, 16})
     for (const bool shadow : {false, true}) frames(samples, shadow, count);
-  whole_program(1, count);
-  whole_program(16, count);
+  start_up(count);
+  whole_program("2 triangles, 16 x 16, one picture", 1, "--count 1 --samples 1 --size 16 16", count);
+  whole_program("one picture from OBJ, 1 sample", kCells, "--count 1 --samples 1", count);
+  whole_program("one picture from OBJ, 16 samples", kCells, "--count 1 --samples 16", count);
+  const int few = std::min(count, 3);
+  whole_program("turntable of 36 pictures, 1 sample", kCells, "--count 36 --samples 1", few);
+  whole_program("turntable of 36 pictures, 16 samples", kCells, "--count 36 --samples 16", few);
+  for (const int cells : {32, 64, 128, 256, 512}) cost("triangles", cells, 1280, 720, 1, few);
+  for (const int width : {320, 640, 1280, 1920}) cost("pixels", kCells, width, width * 9 / 16, 1, few);
+  for (const int samples : {1, 4, 16, 64}) cost("samples", kCells, 1280, 720, samples, few);
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "render/png.h"
 #include "render/renderer.h"
@@ -58,4 +59,46 @@ TEST_CASE("a picture has the same bits again, and with one, two or more threads"
     REQUIRE(std::system(command.c_str()) == 0);
     CHECK(read_bytes(path) == encode_png(here));
   }
+}
+
+TEST_CASE("a picture of what has not changed is not drawn again, and has the bits that drawing it would give") {
+  Renderer renderer({64, 36, 4, 0, 0});
+  Look look;
+  look.color_map = 0;
+  const MeshId plane = renderer.add_mesh(make_plane(1, 1, 4).mesh, {look});
+  const std::vector<glm::vec3> positions = make_plane(1, 1, 4).positions;
+  renderer.set_positions(plane, positions);
+  const MeshId ball = renderer.add_shape(make_sphere(0.3f), {});
+  const Camera camera = frame_bounds(renderer.bounds(), 40, 64.0f / 36);
+  Stage stage = default_stage(renderer.bounds(), camera, true, -0.5f);
+  std::size_t reused = 0;
+  const auto draw = [&](const Camera& from) {
+    const Image shown = renderer.render(from, stage.lights, stage.environment);
+    // Drawn whatever came before.
+    CHECK(shown == develop(renderer.render_linear(from, stage.lights, stage.environment), stage.environment));
+    return renderer.counters().pictures_reused - std::exchange(reused, renderer.counters().pictures_reused);
+  };
+  CHECK(draw(camera) == 0);
+  CHECK(draw(camera) == 1);
+  renderer.set_positions(plane, positions);  // the same ones
+  CHECK(draw(camera) == 1);
+
+  std::vector<glm::vec3> moved = positions;
+  moved[7].y += 0.1f;
+  renderer.set_positions(plane, moved);
+  CHECK(draw(camera) == 0);
+  renderer.set_values(plane, std::vector<float>(moved.size(), 0.5f));
+  CHECK(draw(camera) == 0);
+  renderer.set_transform(ball, glm::mat4(0.9f));
+  CHECK(draw(camera) == 0);
+  renderer.set_visible(ball, false);
+  CHECK(draw(camera) == 0);
+  renderer.set_seed(7);
+  CHECK(draw(camera) == 0);
+  stage.lights.front().intensity *= 0.5f;
+  CHECK(draw(camera) == 0);
+  stage.environment.exposure = 2;
+  CHECK(draw(camera) == 0);
+  CHECK(draw(orbit(camera, glm::vec3(0), 10)) == 0);
+  CHECK(draw(orbit(camera, glm::vec3(0), 10)) == 1);
 }

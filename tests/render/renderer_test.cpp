@@ -246,7 +246,7 @@ TEST_CASE("a feature costs nothing where it is not used") {
     Renderer renderer(small(3));
     add_ball(renderer, {0, 0, 0});
     renderer.render(camera, {&lamp, 1}, {});
-    renderer.render(camera, {&lamp, 1}, {});
+    renderer.render_linear(camera, {&lamp, 1}, {});
     CHECK(renderer.counters().accumulation_buffers == 1);
     CHECK(renderer.counters().passes == 6);
     CHECK(renderer.counters().shadow_maps == 1);
