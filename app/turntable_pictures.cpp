@@ -30,9 +30,10 @@ int write_turntable(const TurntableArguments& a, const std::filesystem::path& ou
     Progress progress("turntable", a.count, a.quiet);
     for (int i = 0; i < a.count && !interrupted(); ++i) {
       files.push_back(output / frame_file_name(i + 1));
-      writer.write(
-          files.back(), picture(360.0 * i / a.count),
-          {{"Software", "softreel " + version()}, {"softreel:frame", std::to_string(i + 1)}, {"softreel:driver", driver}});
+      writer.write(files.back(), picture(360.0 * i / a.count),
+                   {{"Software", "softreel " + version()},
+                    {"softreel:frame", std::to_string(i + 1)},
+                    {"softreel:driver", driver}});
       progress.advance();
     }
   }

@@ -12,8 +12,8 @@ namespace softreel::app {
 /// written.
 std::filesystem::path turntable_output(const TurntableArguments& arguments);
 
-/// Writes `picture(angle)` for arguments.count angles [deg] from 0 in even steps, so that the last goes on to the first,
-/// then the video. `driver`: noted down in the files. Returns the exit code; throws Interrupted.
+/// Writes `picture(angle)` for arguments.count angles [deg] from 0 in even steps, so that the last goes on to the
+/// first, then the video. `driver`: noted down in the files. Returns the exit code; throws Interrupted.
 int write_turntable(const TurntableArguments& arguments, const std::filesystem::path& output, const std::string& driver,
                     const std::function<render::Image(double angle)>& picture);
 

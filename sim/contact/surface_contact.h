@@ -16,7 +16,7 @@ namespace softreel::sim {
 /// c between surfaces, if the scene asks for no less: softer than against colliders, since no step can jump over it,
 /// and a pair that comes too near hardens on its own. Measured on draped cloth: half of the Newton iterations that 100
 /// takes.
-inline constexpr double kSurfaceHardness = 100;
+inline constexpr double kSurfaceHardness = 30;
 
 struct SurfaceContactSettings {
   double distance = 2e-3;              ///< d_hat: the penalty begins here [m] > 0

@@ -268,22 +268,28 @@ TEST_CASE("a block on a rough slope of a mesh sticks at the cone and slides belo
     for (int i = 0; i < s.model().vertices(); ++i) sum += s.model().masses(i) * s.state().v(3 * i);
     return sum / s.model().masses.sum();
   };
-  // It comes to rest where it is only just held, so that every touch is near its cone, and is then let go with v = 0.
+  // It comes to rest where it is only just held, so that every touch is near its cone and creeps, and then loses a
+  // little friction.
   Simulation resting = block_on_slope(0.51);
   run_without_crossing(resting, h, 240);
-  for (const double friction : {0.5, 0.49}) {
+  for (const double friction : {0.505, 0.5, 0.49}) {
     Simulation s = block_on_slope(friction);
-    State start = resting.state();
-    start.v.setZero();
+    const State start = resting.state();
     s.restore(start, resting.memory());
     run_without_crossing(s, h, 120);
     const double first = speed(s);
     run_without_crossing(s, h, 120);
     const double acceleration = (speed(s) - first) / 0.5;
     INFO("friction ", friction, ": ", speed(s), " m/s, ", acceleration, " m/s^2");
-    if (friction == 0.5)
-      CHECK(speed(s) < 1e-3);  // the slip speed
-    else
+    constexpr double kSlipSpeed = 1e-3, kSlides = 0.0877;  // below the cone [m/s^2]
+    if (friction == 0.505) {
+      CHECK(speed(s) < kSlipSpeed);
+    } else if (friction == 0.5) {
+      // At the cone itself friction balances the load at any speed above the slip speed: what an edge of the slope
+      // gives it stays. It must not gather speed, to the precision that sliding is held to.
+      CHECK(std::abs(acceleration) < 0.05 * kSlides);
+      CHECK(speed(s) < 1.5 * kSlipSpeed);
+    } else
       CHECK(acceleration == doctest::Approx(g * (std::sin(angle) - 0.49 * std::cos(angle))).scale(0).epsilon(0.05));
   }
 }
