@@ -93,7 +93,9 @@ void add_compare(CLI::App& command, CompareArguments& a) {
       ->type_name("X,Y,W,H")
       ->take_all()
       ->allow_extra_args(false);
-  command.add_option("--ids", a.ids, "picture of body ids (grey, 8 or 16 bits), or folder with one for each frame");
+  command.add_option(
+      "--ids", a.ids,
+      "picture of body ids (grey, 8 or 16 bits), or folder with one for each frame (id_0001.png, or its name)");
   command.add_option("--mask-id", a.mask_ids, "a body that does not count, by its id; may be repeated")
       ->take_all()
       ->allow_extra_args(false)

@@ -157,7 +157,12 @@ render::Image picture_of_difference(const FramePair& pair, const FrameRule& rule
 fs::path ids_of(const CompareRules& rules, const FrameRule& rule, const std::string& name) {
   if (rule.ids.empty()) return {};
   std::error_code ignored;
-  return fs::is_directory(rules.ids(), ignored) ? fs::path(rules.ids()) / name : fs::path(rules.ids());
+  const fs::path ids = rules.ids();
+  if (!fs::is_directory(ids, ignored)) return ids;
+  constexpr std::string_view kFrame = "frame_";  // as `render` names them: frame_0001.png, id_0001.png
+  if (name.starts_with(kFrame))
+    if (const fs::path beside = ids / ("id_" + name.substr(kFrame.size())); fs::exists(beside, ignored)) return beside;
+  return ids / name;
 }
 
 double flicker_between(const std::vector<std::int16_t>& a, const std::vector<std::int16_t>& b) {

@@ -108,7 +108,12 @@ void walk(KeyVisitor& v, Render& r) {
             keys_of(r.ground));
   v.key({"exposure", kPicture, "stops", between(-20, 20), "brightness of the whole picture"}, &r.exposure);
   v.key({"sky", kPicture, "", at_least(0, 1e3), "brightness of the sky's light"}, &r.sky);
-  v.key({"sky_map", kPicture, "", {}, "picture of all directions (equirectangular .hdr) that lights the scene"},
+  v.key({"sky_map",
+         kPicture,
+         "",
+         {},
+         "picture of all directions (equirectangular .hdr) that lights the scene; pixels that are no finite numbers "
+         "count as black"},
         FileRef{&r.sky_map});
   v.key({"sky_turn", kPicture, "deg", kAngle, "turns sky_map about the vertical"}, &r.sky_turn);
   v.key({"depth", kPicture, "", {}, "also writes depth_0001.png, ...: 16-bit, millimetres along the view"}, &r.depth);

@@ -113,9 +113,21 @@ std::size_t cover(const Image& reference, Image& actual, std::span<const PixelRe
 
 std::size_t cover(const Image& reference, Image& actual, const std::vector<std::uint16_t>& picture_ids,
                   const std::vector<int>& ids) {
+  const int width = actual.width, height = actual.height;
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  std::vector<bool> covered(actual.pixel_count());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (at(x, y) >= picture_ids.size()) continue;
+      if (std::find(ids.begin(), ids.end(), picture_ids[at(x, y)]) == ids.end()) continue;
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) covered[at(u, v)] = true;
+    }
   std::size_t count = 0;
-  for (std::size_t i = 0; i < picture_ids.size() && i < actual.pixel_count(); ++i) {
-    if (std::find(ids.begin(), ids.end(), picture_ids[i]) == ids.end()) continue;
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    if (!covered[i]) continue;
     std::memcpy(actual.rgba.data() + 4 * i, reference.rgba.data() + 4 * i, 4);
     ++count;
   }

@@ -44,7 +44,8 @@ struct PixelRectangle {
 /// may reach beyond the pictures, which have one size. The number of covered pixels.
 std::size_t cover(const Image& reference, Image& actual, std::span<const PixelRectangle> rectangles);
 
-/// The same for every pixel whose id is one of `ids`; `picture_ids`: one per pixel.
+/// The same for every pixel whose id is one of `ids`, and the eight around it: a body adds to each pixel that its edge
+/// is less than one away from (the filter of sampling.h). `picture_ids`: one per pixel.
 std::size_t cover(const Image& reference, Image& actual, const std::vector<std::uint16_t>& picture_ids,
                   const std::vector<int>& ids);
 

@@ -121,7 +121,8 @@ TEST_CASE("Masks and exceptions: what they cover does not count, and mistakes in
   const fs::path reference = folder / "reference", actual = folder / "actual", ids = folder / "ids";
   for (const fs::path& f : {reference, actual, ids}) fs::create_directories(f);
   render::Image bodies = render::Image::blank(60, 50);
-  for (std::size_t i = 0; i < bodies.rgba.size(); ++i) bodies.rgba[i] = i % 4 == 3 ? 255 : i < 4 * 30 ? 7 : 0;
+  for (std::size_t i = 0; i < bodies.rgba.size(); ++i)
+    bodies.rgba[i] = i % 4 == 3 ? 255 : (i / 4 < 3 * 60 && i / 4 % 60 < 30) ? 7 : 0;
   for (const char* name : {"f1.png", "f2.png"}) {
     render::write_png(reference / name, gradient());
     render::write_png(actual / name, changed(90, 30));  // half of the first row

@@ -142,3 +142,24 @@ TEST_CASE("Quiet: another number of threads, a resumed run, PNGs packed differen
   CHECK(same.code == 0);
   CHECK(test::compare(one, packed, {"--tolerance", "bytes"}).code == 1);
 }
+
+TEST_CASE("A body that is masked by the ids that its clip came with does not count, edges and all") {
+  test::TempFolder folder;
+  folder.write("pyramid.obj", pyramid(0));
+  const auto render = [&](const std::string& name, const std::string& color) {
+    const fs::path scene = folder.write(name + ".toml", two_bodies());
+    REQUIRE(test::run({"render", scene.string(), "-o", (folder / name).string(), "--quiet", "--set", "render.id=true",
+                       "--set", "cloth.right.look.color=\"" + color + "\""})
+                .code == 0);
+    return folder / name;
+  };
+  const fs::path teal = render("teal", "teal"), coral = render("coral", "coral");
+  CHECK(test::compare(teal, coral).code == 1);
+  const auto masked = [&](const std::string& id) {
+    return test::compare(teal, coral, {"--tolerance", "pixels", "--ids", teal.string(), "--mask-id", id});
+  };
+  const test::RunResult right = masked("3");
+  INFO(right.out << right.err);
+  CHECK(right.code == 0);  // 0 nothing, 1 the ground, 2 the left one
+  CHECK(masked("2").code == 1);
+}
