@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 
@@ -24,6 +25,27 @@ void lower(std::atomic<double>& bound, double value) {
   double known = bound.load(std::memory_order_relaxed);
   while (value < known && !bound.compare_exchange_weak(known, value, std::memory_order_relaxed)) {
   }
+}
+
+size_t chunks_of(const std::vector<Candidate>& list) { return (list.size() + kChunk - 1) / kChunk; }
+size_t chunks_of(const ContactCandidates& all) { return chunks_of(all.point_triangle()) + chunks_of(all.edge_edge()); }
+
+/// Calls look(chunk, kind, candidates) for all candidates, side by side where there are enough of them.
+template <class Look>
+void for_chunks(const ContactCandidates& all, const Look& look) {
+  const size_t of_points = chunks_of(all.point_triangle()), chunks = chunks_of(all);
+  const auto task = [&](int number) {
+    const auto k = static_cast<size_t>(number);
+    const bool is_point = k < of_points;
+    const std::vector<Candidate>& list = is_point ? all.point_triangle() : all.edge_edge();
+    const size_t first = (is_point ? k : k - of_points) * kChunk;
+    look(k, is_point ? PairKind::kPointTriangle : PairKind::kEdgeEdge,
+         std::span(list).subspan(first, std::min<size_t>(kChunk, list.size() - first)));
+  };
+  if (all.count() < 2 * kChunk)
+    for (size_t k = 0; k < chunks; ++k) task(static_cast<int>(k));
+  else
+    parallel_tasks(static_cast<int>(chunks), task);
 }
 
 }  // namespace
@@ -68,19 +90,9 @@ PairPenalty SurfaceContact::penalty_of(PairKind kind, const Candidate& c, const 
 
 /// The pairs within reach at positions x, in the order of their features: it must not depend on what else was near.
 void SurfaceContact::find_active(const std::vector<Vec3>& x, std::vector<ActivePair>& active) const {
-  const auto& points = candidates_.point_triangle();
-  const auto& edges = candidates_.edge_edge();
-  const auto tasks = [](size_t count) { return (count + kChunk - 1) / kChunk; };
-  const size_t point_tasks = tasks(points.size()), all = point_tasks + tasks(edges.size());
-  std::vector<std::vector<ActivePair>> found(all);
-  const auto look = [&](int task) {
-    const auto k = static_cast<size_t>(task);
-    const bool is_point = k < point_tasks;
-    const PairKind kind = is_point ? PairKind::kPointTriangle : PairKind::kEdgeEdge;
-    const std::vector<Candidate>& list = is_point ? points : edges;
-    const size_t first = (is_point ? k : k - point_tasks) * kChunk, last = std::min(list.size(), first + kChunk);
-    for (size_t i = first; i < last; ++i) {
-      const Candidate& c = list[i];
+  std::vector<std::vector<ActivePair>> found(chunks_of(candidates_));
+  for_chunks(candidates_, [&](size_t k, PairKind kind, std::span<const Candidate> chunk) {
+    for (const Candidate& c : chunk) {
       const std::array<int, 4> v = candidates_.vertices(kind, c);
       FourPoints at;
       for (size_t j = 0; j < 4; ++j) at[j] = x[static_cast<size_t>(v[j])];
@@ -89,11 +101,7 @@ void SurfaceContact::find_active(const std::vector<Vec3>& x, std::vector<ActiveP
       ActivePair pair{kind, c, v, at, closest_points(kind, at), penalty_of(kind, c, v)};
       if (pair.penalty.intrusion(pair.closest.distance) > 0) found[k].push_back(pair);
     }
-  };
-  if (points.size() + edges.size() < 2 * kChunk)
-    for (size_t k = 0; k < all; ++k) look(static_cast<int>(k));
-  else
-    parallel_tasks(static_cast<int>(all), look);
+  });
   active.clear();
   for (const auto& part : found) active.insert(active.end(), part.begin(), part.end());
   std::sort(active.begin(), active.end(), [](const ActivePair& p, const ActivePair& q) {
@@ -212,42 +220,29 @@ Vec3 SurfaceContact::collider_move(int vertex) const {
 
 /// The share of `move` that keeps every candidate apart.
 double SurfaceContact::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& move) const {
-  const auto& points = candidates_.point_triangle();
-  const auto& edges = candidates_.edge_edge();
-  const auto tasks = [](size_t count) { return (count + kChunk - 1) / kChunk; };
-  const size_t point_tasks = tasks(points.size()), all = point_tasks + tasks(edges.size());
   std::atomic<double> bound = 1;
   struct Shortest {
     double share = 1;
     std::array<int, 4> vertices{-1, -1, -1, -1};
   };
-  std::vector<Shortest> shortest(all);
-  const auto look = [&](int task) {
-    const auto k = static_cast<size_t>(task);
-    const bool is_point = k < point_tasks;
-    const PairKind kind = is_point ? PairKind::kPointTriangle : PairKind::kEdgeEdge;
-    const std::vector<Candidate>& list = is_point ? points : edges;
-    const size_t first = (is_point ? k : k - point_tasks) * kChunk, last = std::min(list.size(), first + kChunk);
-    for (size_t i = first; i < last; ++i) {
-      const std::array<int, 4> v = candidates_.vertices(kind, list[i]);
+  std::vector<Shortest> shortest(chunks_of(candidates_));
+  for_chunks(candidates_, [&](size_t k, PairKind kind, std::span<const Candidate> chunk) {
+    for (const Candidate& c : chunk) {
+      const std::array<int, 4> v = candidates_.vertices(kind, c);
       FourPoints at, p;
       for (size_t j = 0; j < 4; ++j) {
         at[j] = x[static_cast<size_t>(v[j])];
         p[j] = move[static_cast<size_t>(v[j])];
       }
       // An answer at or beyond the bound changes nothing, whoever set it: the minimum is the same for any threads.
-      const double share = free_path(kind, at, p, surfaces_->pairs[static_cast<size_t>(list[i].pair)].offset,
+      const double share = free_path(kind, at, p, surfaces_->pairs[static_cast<size_t>(c.pair)].offset,
                                      bound.load(std::memory_order_relaxed));
       if (share < shortest[k].share) {
         shortest[k] = {share, v};
         lower(bound, share);
       }
     }
-  };
-  if (points.size() + edges.size() < 2 * kChunk)
-    for (size_t k = 0; k < all; ++k) look(static_cast<int>(k));
-  else
-    parallel_tasks(static_cast<int>(all), look);
+  });
   double share = candidates_.lost() ? 0 : 1;
   for (const Shortest& s : shortest)
     if (s.share < share) {
