@@ -110,54 +110,54 @@ double BoxTree::cost() const {
   return sum / std::max(area(nodes_[0].box), std::numeric_limits<double>::min());
 }
 
-std::vector<BoxTree::Work> BoxTree::self_work() const {
-  std::vector<Work> work{{0, 0}};
-  for (bool split = true; split && work.size() < kParts;) {
-    split = false;
-    std::vector<Work> next;
-    for (const Work& w : work) {
-      const Node &a = nodes_[static_cast<size_t>(w.a)], &b = nodes_[static_cast<size_t>(w.b)];
-      if (w.a == w.b && a.right != 0) {
-        next.push_back({w.a + 1, w.a + 1});
-        next.push_back({w.a + 1, a.right});
-        next.push_back({a.right, a.right});
-        split = true;
-      } else if (w.a != w.b && !a.box.meets(b.box)) {
-        split = true;
-      } else if (w.a != w.b && a.right != 0 && b.right != 0) {
-        for (const int i : {w.a + 1, a.right})
-          for (const int j : {w.b + 1, b.right}) next.push_back({i, j});
-        split = true;
-      } else {
+namespace {
+
+/// Splits all of `work`, again and again, until there is enough of it for all threads. `split(w, next)` appends what
+/// takes the place of w, or nothing where its boxes do not meet; false: w cannot be split, and stays.
+template <class Split>
+std::vector<BoxTree::Work> split_up(std::vector<BoxTree::Work> work, const Split& split) {
+  for (bool any = true; any && !work.empty() && work.size() < kParts;) {
+    any = false;
+    std::vector<BoxTree::Work> next;
+    for (const BoxTree::Work& w : work) {
+      if (split(w, next))
+        any = true;
+      else
         next.push_back(w);
-      }
     }
     work.swap(next);
   }
   return work;
 }
 
+}  // namespace
+
+/// The children of two nodes, each with each. False if one has none.
+bool BoxTree::pair_children(Work w, const BoxTree& other, std::vector<Work>& next) const {
+  const Node &a = nodes_[static_cast<size_t>(w.a)], &b = other.nodes_[static_cast<size_t>(w.b)];
+  if (a.right == 0 || b.right == 0) return false;
+  for (const int i : {w.a + 1, a.right})
+    for (const int j : {w.b + 1, b.right}) next.push_back({i, j});
+  return true;
+}
+
+std::vector<BoxTree::Work> BoxTree::self_work() const {
+  return split_up({{0, 0}}, [&](Work w, std::vector<Work>& next) {
+    const Node &a = nodes_[static_cast<size_t>(w.a)], &b = nodes_[static_cast<size_t>(w.b)];
+    if (w.a != w.b) return !a.box.meets(b.box) || pair_children(w, *this, next);
+    if (a.right == 0) return false;
+    next.push_back({w.a + 1, w.a + 1});
+    next.push_back({w.a + 1, a.right});
+    next.push_back({a.right, a.right});
+    return true;
+  });
+}
+
 std::vector<BoxTree::Work> BoxTree::work_with(const BoxTree& other, const Box3f& shifts) const {
-  std::vector<Work> work;
-  if (box().meets(other.box().swept(shifts))) work.push_back({0, 0});
-  for (bool split = true; split && !work.empty() && work.size() < kParts;) {
-    split = false;
-    std::vector<Work> next;
-    for (const Work& w : work) {
-      const Node &a = nodes_[static_cast<size_t>(w.a)], &b = other.nodes_[static_cast<size_t>(w.b)];
-      if (!a.box.meets(b.box.swept(shifts))) {
-        split = true;
-      } else if (a.right != 0 && b.right != 0) {
-        for (const int i : {w.a + 1, a.right})
-          for (const int j : {w.b + 1, b.right}) next.push_back({i, j});
-        split = true;
-      } else {
-        next.push_back(w);
-      }
-    }
-    work.swap(next);
-  }
-  return work;
+  return split_up({{0, 0}}, [&](Work w, std::vector<Work>& next) {
+    const Node &a = nodes_[static_cast<size_t>(w.a)], &b = other.nodes_[static_cast<size_t>(w.b)];
+    return !a.box.meets(b.box.swept(shifts)) || pair_children(w, other, next);
+  });
 }
 
 void BoxTree::self_pairs(Work work, std::span<const Box3f> triangles, std::vector<Pair>& pairs) const {

@@ -64,6 +64,7 @@ class BoxTree {
     int right = 0;             // second child; the first one is the next node. 0: a leaf
     int first = 0, count = 0;  // its triangles in order_
   };
+  bool pair_children(Work w, const BoxTree& other, std::vector<Work>& next) const;
   int build(int first, int count, std::span<const Eigen::Vector3d> middles);
 
   std::span<const Triangle> triangles_;
