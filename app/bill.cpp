@@ -70,6 +70,11 @@ std::vector<BillItem> bill_of(const Scene& s) {
       touchable > 1 ? number(touchable, "surface", "surfaces") : "a body touches itself",
       touchable > 0 ? "a single surface, which does not ask for contact with itself"
                     : "there is no surface that could touch another");
+  const double sleep = sleep_speed(s);
+  add("sleeping bodies", sleep > 0, fmt::format("bodies slower than {:.3g} m/s fall asleep", sleep),
+      s.contact.sleep_speed == 0.0 ? "contact.sleep_speed is 0"
+      : s.time.accuracy            ? "time.accuracy watches smaller motions"
+                                   : "bodies touch nothing on which they could come to rest");
   const bool still = s.time.integrator == "static";
   add("friction", !still && count(s.colliders, [](const Collider& c) { return c.friction > 0; }) > 0,
       "some colliders are rough",

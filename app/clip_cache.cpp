@@ -70,6 +70,7 @@ void ClipCache::write(int frame, const CachedFrame& data) const {
     record.scalars["accuracy/coarse_steps"] = a->coarse_steps;
     record.scalars["accuracy/met"] = a->met ? 1 : 0;
   }
+  if (data.figures.asleep) record.scalars["asleep"] = *data.figures.asleep;
   if (data.figures.contact)
     for (const auto& [name, figure] : kContactFigures) record.scalars[name] = *data.figures.contact.*figure;
   for (std::size_t i = 0; i < data.fields.size(); ++i) {
@@ -102,6 +103,7 @@ std::optional<CachedFrame> ClipCache::read(int frame, int vertices) const {
     data.figures.inverted = s.at("inverted");
     if (s.contains("accuracy/met"))
       data.figures.accuracy = {s.at("accuracy/estimate"), s.at("accuracy/coarse_steps"), s.at("accuracy/met") != 0};
+    if (s.contains("asleep")) data.figures.asleep = s.at("asleep");
     if (s.contains(kContactFigures.front().first)) {
       data.figures.contact.emplace();
       for (const auto& [name, figure] : kContactFigures) *data.figures.contact.*figure = s.at(name);

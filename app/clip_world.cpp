@@ -57,6 +57,7 @@ CachedFrame ClipWorld::frame(const sim::StepReport& sum) const {
     frame.state = bodies_->state();
     frame.memory = bodies_->memory();
     frame.figures.energies = bodies_->energies();
+    if (bodies_->sleeps()) frame.figures.asleep = bodies_->asleep();
     if (bodies_->model().surfaces) frame.figures.contact = contact_figures(sum);
   } else {
     frame.state.t = t_;

@@ -248,6 +248,7 @@ sim::SimulationSettings simulation_settings(const assets::Scene& scene) {
   s.minimizer.tolerance = scene.solver.tolerance;
   s.minimizer.max_iterations = scene.solver.max_iterations;
   s.minimizer.linear_tolerance = scene.solver.linear_tolerance;
+  s.sleep_speed = assets::sleep_speed(scene);
   s.max_halvings = scene.time.max_halvings;
   // The last frame shows the full load.
   if (scene.time.integrator == "static") s.load_time = (scene.time.frames() - 1) / scene.time.fps;

@@ -349,8 +349,9 @@ struct Contact {
   double friction = 0.3;         ///< between surfaces of bodies, whose own it is where they give none [-]
   bool resolve_overlap = false;  ///< bodies that overlap in the first frame are moved apart, not refused
   std::vector<ContactPair> pairs;
-  double distance = 2e-3;           ///< at which the penalty begins [m]
-  double slip_speed = 1e-3;         ///< below which friction holds [m/s]
+  double distance = 2e-3;             ///< at which the penalty begins [m]
+  double slip_speed = 1e-3;           ///< below which friction holds [m/s]
+  std::optional<double> sleep_speed;  ///< bodies that stay slower fall asleep [m/s]; absent: slip_speed/2; 0: none does
   std::optional<double> stiffness;  ///< of the penalty k in psi = k/3 (distance - d)^3 [N/m^2]; absent: from the scene
 };
 

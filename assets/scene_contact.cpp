@@ -17,4 +17,13 @@ bool has_touching_surfaces(const Scene& scene) {
                      [](const ContactPair& p) { return p.touch; });
 }
 
+double sleep_speed(const Scene& scene) {
+  const bool colliders = std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                                     [](const Collider& c) { return c.shape != ColliderShape::kMesh; });
+  if (!(colliders || has_touching_surfaces(scene)) || scene.time.integrator == "static" || scene.time.accuracy)
+    return 0;
+  constexpr double kOfSlipSpeed = 0.5;  // what sticks creeps so fast at three quarters of the friction that it has
+  return scene.contact.sleep_speed.value_or(kOfSlipSpeed * scene.contact.slip_speed);
+}
+
 }  // namespace softreel::assets

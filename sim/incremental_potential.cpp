@@ -1,6 +1,7 @@
 #include "sim/incremental_potential.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/contact/surface_contact.h"
 #include "sim/parallel.h"
@@ -10,11 +11,11 @@
 namespace softreel::sim {
 namespace {
 
-std::vector<const EnergyTerm*> all_terms(const Model& model) {
+std::vector<const EnergyTerm*> unchanging(const TermList& all) {
   std::vector<const EnergyTerm*> terms;
-  for (const auto* list : {&model.potentials, &model.dissipations, &model.mass_corrections})
-    for (const auto& t : *list)
-      if (!t->changing_stencils()) terms.push_back(t.get());
+  for (const auto* list : {&all.potentials, &all.dissipations, &all.mass_corrections})
+    for (const EnergyTerm* t : *list)
+      if (!t->changing_stencils()) terms.push_back(t);
   return terms;
 }
 
@@ -26,12 +27,16 @@ double& stage_of(const EnergyTerm& term, StepReport& report) {
 
 }  // namespace
 
-IncrementalPotential::IncrementalPotential(const Model& model, const Pins& pins)
-    : model_(model), pins_(pins), mass_(model, pins.fixed()), assembler_(model.vertices(), all_terms(model)) {
+IncrementalPotential::IncrementalPotential(const Model& model, const Pins& pins, TermList terms)
+    : model_(model),
+      pins_(pins),
+      terms_(std::move(terms)),
+      mass_(model, pins.fixed()),
+      assembler_(model.vertices(), unchanging(terms_)) {
   stiffness_ = stiffness_scale(model.potentials, model.x0);
 }
 
-bool IncrementalPotential::damped() const { return stage_.a > 0 && !model_.dissipations.empty(); }
+bool IncrementalPotential::damped() const { return stage_.a > 0 && !terms_.dissipations.empty(); }
 
 void IncrementalPotential::set_velocity(const Eigen::VectorXd& y) {
   if (damped()) velocity_ = stage_.a * y + stage_.b;
@@ -43,13 +48,13 @@ double IncrementalPotential::value(const Eigen::VectorXd& y, StepReport& report)
     offset_ = y - stage_.y_tilde;
     phi = stage_.inertia * mass_.energy(offset_);
   }
-  for (const auto& term : model_.potentials) {
+  for (EnergyTerm* term : terms_.potentials) {
     const Stopwatch watch(stage_of(*term, report));
     phi += stage_.beta * term->value(y);
   }
   if (!damped()) return phi;
   set_velocity(y);
-  for (const auto& term : model_.dissipations) {
+  for (EnergyTerm* term : terms_.dissipations) {
     const Stopwatch watch(stage_of(*term, report));
     phi += stage_.beta / stage_.a * term->value(velocity_);
   }
@@ -58,13 +63,13 @@ double IncrementalPotential::value(const Eigen::VectorXd& y, StepReport& report)
 
 void IncrementalPotential::gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g, StepReport& report) {
   g.setZero(y.size());
-  for (const auto& term : model_.potentials) {
+  for (EnergyTerm* term : terms_.potentials) {
     const Stopwatch watch(stage_of(*term, report));
     term->add_gradient(y, g);
   }
   if (damped()) {
     set_velocity(y);
-    for (const auto& term : model_.dissipations) {
+    for (EnergyTerm* term : terms_.dissipations) {
       const Stopwatch watch(stage_of(*term, report));
       term->add_gradient(velocity_, g);
     }
@@ -93,11 +98,11 @@ void IncrementalPotential::assemble(const Eigen::VectorXd& y, Definiteness defin
   set_velocity(y);
   std::vector<ScaledTerm> fixed, changing;
   const auto add = [&](const auto& terms, const Eigen::VectorXd& at, double scale) {
-    for (const auto& t : terms) (t->changing_stencils() ? changing : fixed).push_back({t.get(), &at, scale});
+    for (const EnergyTerm* t : terms) (t->changing_stencils() ? changing : fixed).push_back({t, &at, scale});
   };
-  add(model_.potentials, y, stage_.beta);
-  add(model_.dissipations, velocity_, stage_.beta * stage_.a);
-  add(model_.mass_corrections, y, stage_.inertia);
+  add(terms_.potentials, y, stage_.beta);
+  add(terms_.dissipations, velocity_, stage_.beta * stage_.a);
+  add(terms_.mass_corrections, y, stage_.inertia);
   static const Eigen::VectorXd kNone;
   const Eigen::VectorXd& masses = stage_.inertia > 0 ? model_.masses : kNone;
   if (changing.empty()) return assembler_.assemble(fixed, masses, held, definiteness, H);
@@ -147,20 +152,20 @@ bool IncrementalPotential::harden(const Eigen::VectorXd& y, const Eigen::VectorX
   set_velocity(y);
   const Eigen::VectorXd dv = stage_.a * dy;
   bool any = false;
-  for (const auto& t : model_.dissipations) any = t->harden(velocity_, dv) || any;
+  for (EnergyTerm* t : terms_.dissipations) any = t->harden(velocity_, dv) || any;
   return any;
 }
 
 void IncrementalPotential::add_hardened_gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g) {
   set_velocity(y);
   Eigen::VectorXd excess = Eigen::VectorXd::Zero(y.size());
-  for (const auto& t : model_.dissipations) t->add_hardened_gradient(velocity_, excess);
+  for (EnergyTerm* t : terms_.dissipations) t->add_hardened_gradient(velocity_, excess);
   pins_.zero(excess);
   g += stage_.beta * excess;
 }
 
 void IncrementalPotential::soften() {
-  for (const auto& t : model_.dissipations) t->soften();
+  for (EnergyTerm* t : terms_.dissipations) t->soften();
 }
 
 double IncrementalPotential::max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy, StepReport& report) {

@@ -9,13 +9,14 @@
 #include "sim/mass.h"
 #include "sim/model.h"
 #include "sim/step_report.h"
+#include "sim/term_list.h"
 
 namespace softreel::sim {
 
 class IncrementalPotential {
  public:
-  /// Builds the sparsity pattern. `model` and `pins` must outlive this.
-  IncrementalPotential(const Model& model, const Pins& pins);
+  /// Of the `terms` of the model; builds the sparsity pattern. `model` and `pins` must outlive this.
+  IncrementalPotential(const Model& model, const Pins& pins, TermList terms);
 
   /// Before each solve.
   void begin() { changing_.begin(); }
@@ -70,6 +71,7 @@ class IncrementalPotential {
 
   const Model& model_;
   const Pins& pins_;
+  TermList terms_;
   MassMatrix mass_;
   HessianAssembler assembler_;
   BlockMatrix fixed_part_;  // with changing stencils: what the others give

@@ -17,7 +17,8 @@ struct LoadTimes {
   double until = std::numeric_limits<double>::infinity();  ///< [s] > from
   double ramp = 0;                                         ///< [s] >= 0
 
-  double at(double t) const;              ///< share of the load that acts at t, in [0, 1]
+  double at(double t) const;  ///< share of the load that acts at t, in [0, 1]
+  bool change() const { return !always() || until < std::numeric_limits<double>::infinity(); }
   double mean(double t, double h) const;  ///< its mean over [t, t + h], exact; h = 0: that at t
 
  private:

@@ -4,14 +4,28 @@
 
 namespace softreel::sim {
 
-Pins::Pins(const Model& model) : model_(model), fixed_(3 * static_cast<size_t>(model.vertices()), 0) {
-  for (const Pin& pin : model.pins)
+Pins::Pins(const Model& model) : model_(model), fixed_(3 * static_cast<size_t>(model.vertices()), 0) { fix(); }
+
+void Pins::fix() {
+  for (const Pin& pin : model_.pins)
     for (int v : pin.vertices)
       for (size_t axis = 0; axis < 3; ++axis)
         if (pin.axes[axis]) {
           fixed_[3 * static_cast<size_t>(v) + axis] = 1;
           any_ = true;
         }
+}
+
+void Pins::hold(std::span<const std::uint8_t> bodies) {
+  std::fill(fixed_.begin(), fixed_.end(), 0);
+  any_ = false;
+  fix();
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]) continue;
+    const auto first = fixed_.begin() + 3 * model_.bodies[b].first;
+    std::fill(first, first + 3 * model_.bodies[b].count, 1);
+    any_ = true;
+  }
 }
 
 void Pins::place(double t, Eigen::VectorXd& x) const {

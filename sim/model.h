@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/energy_term.h"
@@ -33,10 +34,14 @@ struct Model {
 
   SurfaceContact* surfaces = nullptr;  ///< contact between surfaces, among the potentials
 
+  /// Per body: is it moved by what may change while it lies still (pins with a motion, loads with times, wind)? Empty:
+  /// none is.
+  std::vector<std::uint8_t> restless;
+
   int vertices() const { return static_cast<int>(masses.size()); }
 };
 
-/// Degrees of freedom that pins hold, and where they hold them.
+/// Degrees of freedom that are held, and where: by pins, or because their body is asleep.
 class Pins {
  public:
   explicit Pins(const Model& model);
@@ -44,9 +49,11 @@ class Pins {
   bool any() const { return any_; }
   /// 3n flags.
   const std::vector<std::uint8_t>& fixed() const { return fixed_; }
-  /// x of every held degree of freedom := its scripted position at time t.
+  /// From now on, bodies with a flag are held where they are, too.
+  void hold(std::span<const std::uint8_t> bodies);
+  /// x of every pinned degree of freedom := its scripted position at time t.
   void place(double t, Eigen::VectorXd& x) const;
-  /// v of every held degree of freedom := its scripted velocity at time t, from before where it jumps.
+  /// v of every pinned degree of freedom := its scripted velocity at time t, from before where it jumps.
   void drive(double t, Eigen::VectorXd& v) const;
   /// Does any of them move between two times?
   bool move(double from, double to) const;
@@ -56,6 +63,8 @@ class Pins {
   void zero(Eigen::VectorXd& vector) const;
 
  private:
+  void fix();
+
   const Model& model_;
   std::vector<std::uint8_t> fixed_;
   bool any_ = false;

@@ -102,6 +102,24 @@ void ModelBuilder::set_velocity(const BodyRange& body, const Vec3& velocity, con
     Eigen::Map<Vec3>(v_.data() + 3 * static_cast<size_t>(i)) += velocity + spin.cross(position(i) - centre);
 }
 
+/// Their bodies are moved by what may change.
+void ModelBuilder::keep_awake(std::span<const int> vertices) {
+  model_.restless.resize(model_.bodies.size(), 0);
+  for (const int v : vertices)
+    for (size_t b = 0; b < model_.bodies.size(); ++b)
+      if (v >= model_.bodies[b].first && v < model_.bodies[b].first + model_.bodies[b].count) model_.restless[b] = 1;
+}
+
+void ModelBuilder::add_pin(Pin pin) {
+  if (!pin.motion.still()) keep_awake(pin.vertices);
+  model_.pins.push_back(std::move(pin));
+}
+
+void ModelBuilder::add_load(NodalForces forces, const LoadTimes& times) {
+  if (times.change()) keep_awake(forces.vertices);
+  loads_.push_back(make_load(std::move(forces), times));
+}
+
 void ModelBuilder::add_ties(const std::vector<Tie>& ties, double damping) {
   if (!wanted(!ties.empty())) return;
   for (auto& term : make_ties(ties)) model_.potentials.push_back(std::move(term));
@@ -129,6 +147,10 @@ Model ModelBuilder::finish(const Vec3& gravity, const Damping& damping, std::vec
   Model& m = model_;
   m.masses = masses();
   m.x0 = positions();
+  if (wind_)
+    m.restless.assign(m.bodies.size(), 1);
+  else if (!m.restless.empty())
+    m.restless.resize(m.bodies.size(), 0);
   m.v0 = Eigen::Map<const Eigen::VectorXd>(v_.data(), static_cast<Eigen::Index>(v_.size()));
   if (wanted(damping.beta > 0)) {
     std::vector<const EnergyTerm*> elastic;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,8 +59,8 @@ class ModelBuilder {
 
   /// v += velocity + spin x (x - centre of mass); velocity [m/s], spin [rad/s].
   void set_velocity(const BodyRange& body, const Vec3& velocity, const Vec3& spin);
-  void add_pin(Pin pin) { model_.pins.push_back(std::move(pin)); }
-  void add_load(NodalForces forces, const LoadTimes& times) { loads_.push_back(make_load(std::move(forces), times)); }
+  void add_pin(Pin pin);
+  void add_load(NodalForces forces, const LoadTimes& times);
   /// `damping` of each tie [N s/m] >= 0.
   void add_ties(const std::vector<Tie>& ties, double damping);
   /// Wind on `surfaces`; [damping] drag is relative to it.
@@ -82,6 +83,8 @@ class ModelBuilder {
 
  private:
   BodyRange add_body(const std::string& name, const std::vector<Vec3>& rest, const std::vector<double>& masses);
+
+  void keep_awake(std::span<const int> vertices);
 
   template <class Mesh>
   void add_mass_correction(const Mesh& rest, double density, const BodyRange& body);

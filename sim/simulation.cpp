@@ -23,12 +23,8 @@ Simulation::Simulation(Model model, const SimulationSettings& settings)
       state_{0, model_.x0, model_.v0},
       method_(make_integrator(settings.integrator)) {
   pins_.zero(state_.v);  // a body's velocity is not that of what holds it
-  if (implicit()) {
-    phi_ = std::make_unique<IncrementalPotential>(model_, pins_);
-    minimizer_ = make_minimizer(model_, *phi_, settings.linear_solver, settings.minimizer);
-  } else {
-    mass_ = std::make_unique<MassMatrix>(model_, pins_.fixed());
-  }
+  if (settings.sleep_speed > 0) sleep_ = std::make_unique<Sleep>(model_, settings.sleep_speed);
+  arrange();
   if (model_.vertices() > 0) {
     const Eigen::Map<const Eigen::Matrix3Xd> x(model_.x0.data(), 3, model_.vertices());
     extent_ = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
@@ -38,7 +34,52 @@ Simulation::Simulation(Model model, const SimulationSettings& settings)
 
 Simulation::~Simulation() = default;
 
+/// Builds what steps of the awake bodies need.
+void Simulation::arrange() {
+  terms_ = terms_of(model_, sleep_ ? std::span<const std::uint8_t>(sleep_->asleep()) : std::span<const std::uint8_t>());
+  if (implicit()) {
+    minimizer_.reset();
+    phi_ = std::make_unique<IncrementalPotential>(model_, pins_, terms_);
+    minimizer_ = make_minimizer(model_, *phi_, settings_.linear_solver, settings_.minimizer);
+  } else {
+    mass_ = std::make_unique<MassMatrix>(model_, pins_.fixed());
+  }
+}
+
+/// After bodies have fallen asleep, or woken.
+void Simulation::change_sleepers() {
+  const std::vector<std::uint8_t>& asleep = sleep_->asleep();
+  pins_.hold(asleep);
+  for (size_t b = 0; b < asleep.size(); ++b)
+    if (asleep[b]) state_.v.segment(3 * model_.bodies[b].first, 3 * model_.bodies[b].count).setZero();
+  if (model_.surfaces) {
+    model_.surfaces->leave_out({});
+    const double all = model_.surfaces->value(state_.x);
+    model_.surfaces->leave_out(pins_.fixed());
+    resting_contact_ = all - model_.surfaces->value(state_.x);
+  }
+  arrange();
+}
+
+/// Rounding, and what methods keep of earlier steps, must not move what is asleep.
+void Simulation::keep_asleep(const State& before) {
+  const std::vector<std::uint8_t>& asleep = sleep_->asleep();
+  for (size_t b = 0; b < asleep.size(); ++b) {
+    if (!asleep[b]) continue;
+    const int first = 3 * model_.bodies[b].first, count = 3 * model_.bodies[b].count;
+    state_.x.segment(first, count) = before.x.segment(first, count);
+    state_.v.segment(first, count).setZero();
+  }
+}
+
 StepReport Simulation::step(double h) {
+  if (sleep_ && sleep_->wake_moved(state_.x, state_.t, h)) change_sleepers();
+  if (sleep_ && sleep_->any() && sleep_->count() == static_cast<int>(model_.bodies.size())) {
+    state_.t += h;
+    StepReport report;
+    report.steps = 1;
+    return report;
+  }
   const State before = state_;
   nominal_ = h;
   const double dissipated = dissipated_;
@@ -58,6 +99,7 @@ StepReport Simulation::step(double h) {
   } else {
     // Parts of h do not add up to h exactly: frames fall where they should.
     state_.t = before.t + h;
+    if (sleep_ && sleep_->settle(state_, h)) change_sleepers();
   }
   return report;
 }
@@ -75,12 +117,36 @@ StepReport Simulation::step_in_halves(double h, int depth) {
 }
 
 StepReport Simulation::attempt(double h) {
+  const State before = state_;
+  StepReport report = attempt_once(h, before);
+  // What is touched in a step is awake in it; what stands in the way of a solution is, too.
+  while (sleep_ && (report.converged ? sleep_->wake_touched(state_.x) : sleep_->wake_near())) {
+    state_ = before;
+    forget();
+    change_sleepers();
+    report.add(attempt_once(h, before));
+  }
+  if (!report.converged) {
+    state_ = before;
+    forget();
+    return report;
+  }
+  report.steps = 1;
+  const bool at_rest = implicit() && phi_->stage().a == 0;  // an equilibrium has no velocity
+  if (!terms_.dissipations.empty() && !at_rest) {
+    for (EnergyTerm* term : terms_.dissipations) report.dissipated += h * term->power(state_.v);
+    dissipated_ += report.dissipated;
+  }
+  return report;
+}
+
+StepReport Simulation::attempt_once(double h, const State& before) {
   StepReport report;
-  State before = state_;
   if (implicit())
     implicit_step(h, report);
   else
     explicit_step(h, report);
+  if (sleep_ && sleep_->any()) keep_asleep(before);
   if (report.converged && model_.surfaces && !(implicit() && method_.implicit_method->ends_at_solution())) {
     const Stopwatch watch(report.seconds.contact);
     if (!model_.surfaces->way_is_free(before.x, before.t, state_.x, state_.t)) {
@@ -95,17 +161,6 @@ StepReport Simulation::attempt(double h) {
       report.reason =
           implicit() ? "positions ran away" : "positions ran away: the step is too long for an explicit method";
     }
-  }
-  if (!report.converged) {
-    state_ = std::move(before);
-    forget();
-    return report;
-  }
-  report.steps = 1;
-  const bool at_rest = implicit() && phi_->stage().a == 0;  // an equilibrium has no velocity
-  if (!model_.dissipations.empty() && !at_rest) {
-    for (const auto& term : model_.dissipations) report.dissipated += h * term->power(state_.v);
-    dissipated_ += report.dissipated;
   }
   return report;
 }
@@ -124,12 +179,12 @@ StepContext Simulation::context(const State& from, const Eigen::VectorXd& predic
 }
 
 void Simulation::begin_terms(const StepContext& context, StepReport& report) {
-  for (const auto& term : model_.potentials) {
+  for (EnergyTerm* term : terms_.potentials) {
     const Stopwatch watch(term->kind() == EnergyKind::kContact ? report.seconds.contact : report.seconds.gradient);
     term->begin_step(context);
   }
   const Stopwatch watch(report.seconds.gradient);
-  for (const auto& term : model_.dissipations) term->begin_step(context);
+  for (EnergyTerm* term : terms_.dissipations) term->begin_step(context);
 }
 
 /// Forces at a state, with everything that is lagged in an implicit solve taken at that state itself.
@@ -141,18 +196,18 @@ Acceleration Simulation::acceleration(double h, StepReport& report) {
     }
     begin_terms(context(at, at.x, h, at.t), report);
     a.setZero(at.x.size());
-    for (const auto& term : model_.potentials) {
+    for (const EnergyTerm* term : terms_.potentials) {
       const bool contact = term->kind() == EnergyKind::kContact;
       report.contact_evaluations += contact ? 1 : 0;
       const Stopwatch watch(contact ? report.seconds.contact : report.seconds.gradient);
       term->add_gradient(at.x, a);
     }
     const Stopwatch watch(report.seconds.gradient);
-    for (const auto& term : model_.dissipations) term->add_gradient(at.v, a);
+    for (const EnergyTerm* term : terms_.dissipations) term->add_gradient(at.v, a);
     a *= -1;
     (mass_ ? *mass_ : phi_->mass()).solve(a);
   };
-  return {evaluate, !model_.dissipations.empty()};
+  return {evaluate, !terms_.dissipations.empty()};
 }
 
 void Simulation::implicit_step(double h, StepReport& report) {
@@ -255,6 +310,7 @@ Energies Simulation::energies() const {
     if (term->kind() == EnergyKind::kGravity) e.gravity += value;
     if (term->kind() == EnergyKind::kContact) e.contact += value;
   }
+  e.contact += resting_contact_;
   e.dissipated = dissipated_;
   return e;
 }
@@ -267,6 +323,11 @@ std::vector<double> Simulation::memory() const {
   if (model_.surfaces) {
     const std::vector<double> contact = model_.surfaces->memory();
     saved.insert(saved.end(), contact.begin(), contact.end());
+  }
+  if (sleep_) {
+    saved.push_back(resting_contact_);
+    const std::vector<double> sleep = sleep_->memory();
+    saved.insert(saved.end(), sleep.begin(), sleep.end());
   }
   if (minimizer_) {
     const std::vector<double> guess = start_guess_.memory();
@@ -290,6 +351,13 @@ void Simulation::restore(const State& state, std::span<const double> memory) {
     method_.explicit_method->restore(memory.subspan(2, history));
   std::span<const double> rest = memory.subspan(2 + history);
   if (model_.surfaces) rest = model_.surfaces->restore(rest);
+  if (sleep_) {
+    if (rest.empty()) unfit();
+    const double resting = rest[0];
+    rest = sleep_->restore(rest.subspan(1));
+    if (sleep_->any()) change_sleepers();
+    resting_contact_ = resting;
+  }
   if (minimizer_) minimizer_->restore(start_guess_.restore(rest, state.x.size()));
 }
 

@@ -12,8 +12,10 @@
 #include "sim/integrators.h"
 #include "sim/minimizer.h"
 #include "sim/model.h"
+#include "sim/sleep.h"
 #include "sim/start_guess.h"
 #include "sim/step_report.h"
+#include "sim/term_list.h"
 
 namespace softreel::sim {
 
@@ -21,8 +23,9 @@ struct SimulationSettings {
   std::string integrator = "implicit-euler";  ///< of `integrators()`
   LinearSettings linear_solver;
   MinimizerSettings minimizer;
-  int max_halvings = 6;  ///< a step that does not converge is retried in halves, so many times over
-  double load_time = 0;  ///< of a static analysis: when gravity and loads have grown to their full size [s]
+  int max_halvings = 6;    ///< a step that does not converge is retried in halves, so many times over
+  double sleep_speed = 0;  ///< bodies that stay slower fall asleep (sleep.h) [m/s]; 0: none does
+  double load_time = 0;    ///< of a static analysis: when gravity and loads have grown to their full size [s]
 };
 
 /// Energies of the whole scene [J].
@@ -51,6 +54,9 @@ class Simulation {
   StepReport step(double h);
 
   Energies energies() const;
+  /// How many bodies are asleep.
+  bool sleeps() const { return sleep_ != nullptr; }  ///< can any fall asleep?
+  int asleep() const { return sleep_ ? sleep_->count() : 0; }
 
   /// Everything beside the state that later steps depend on; `restore` goes on from it with the same bits.
   std::vector<double> memory() const;
@@ -58,6 +64,10 @@ class Simulation {
 
  private:
   StepReport attempt(double h);
+  StepReport attempt_once(double h, const State& before);
+  void arrange();
+  void change_sleepers();
+  void keep_asleep(const State& before);
   StepReport step_in_halves(double h, int depth);
   StepContext context(const State& from, const Eigen::VectorXd& predicted, double h, double t_forces) const;
   void begin_terms(const StepContext& context, StepReport& report);
@@ -71,6 +81,9 @@ class Simulation {
 
   Model model_;
   Pins pins_;
+  TermList terms_;                ///< of what is awake
+  std::unique_ptr<Sleep> sleep_;  ///< null: nothing ever falls asleep
+  double resting_contact_ = 0;    ///< energy of contact between what is asleep [J]
   SimulationSettings settings_;
   State state_;
   double dissipated_ = 0;

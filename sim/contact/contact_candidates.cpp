@@ -76,6 +76,11 @@ double ContactCandidates::apart(const Place& place, const SurfacePair& pair) con
   return (place.shift[static_cast<size_t>(pair.b)] - place.shift[static_cast<size_t>(pair.a)]).norm();
 }
 
+void ContactCandidates::leave_out(std::vector<std::uint8_t> surfaces) {
+  left_out_ = std::move(surfaces);
+  stale_ = true;
+}
+
 void ContactCandidates::begin(const std::vector<Vec3>& x, const std::vector<Vec3>& move) {
   start_ = x;
   move_ = move;
@@ -111,13 +116,13 @@ bool ContactCandidates::holds(const std::vector<Vec3>& x, const Place& place) co
 }
 
 bool ContactCandidates::cover(const std::vector<Vec3>& x) {
-  if (holds(x, place_of(x))) return false;
+  if (!stale_ && holds(x, place_of(x))) return false;
   begin(x, std::vector<Vec3>(x.size(), Vec3::Zero()));
   return true;
 }
 
 bool ContactCandidates::covers(const std::vector<Vec3>& x, const std::vector<Vec3>& move) const {
-  if (!holds(x, place_of(x))) return false;
+  if (stale_ || !holds(x, place_of(x))) return false;
   std::vector<Vec3> end(x.size());
   for (size_t v = 0; v < x.size(); ++v) end[v] = x[v] + move[v];
   return holds(end, place_of(end));
@@ -289,6 +294,7 @@ void ContactCandidates::refit() {
 
 void ContactCandidates::search() {
   ++searches_;
+  stale_ = false;
   point_triangle_.clear();
   edge_edge_.clear();
   lost_ = false;
@@ -306,6 +312,8 @@ void ContactCandidates::search() {
   std::vector<Part> parts;
   for (size_t p = 0; p < surfaces_.pairs.size(); ++p) {
     const SurfacePair& pair = surfaces_.pairs[p];
+    if (!left_out_.empty() && left_out_[static_cast<size_t>(pair.a)] && left_out_[static_cast<size_t>(pair.b)])
+      continue;
     const BoxTree& tree = *trees_[static_cast<size_t>(pair.a)];
     if (pair.a == pair.b) {
       for (const BoxTree::Work& w : tree.self_work()) parts.push_back({w, p, {}});

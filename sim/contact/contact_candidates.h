@@ -37,6 +37,9 @@ class ContactCandidates {
   /// Makes the candidates complete for such a way. True if they had to be looked for again.
   bool cover(const std::vector<Vec3>& x, const std::vector<Vec3>& move);
 
+  /// From now on, pairs of surfaces that both have a flag are left out; empty: none is.
+  void leave_out(std::vector<std::uint8_t> surfaces);
+
   const std::vector<Candidate>& point_triangle() const { return point_triangle_; }
   const std::vector<Candidate>& edge_edge() const { return edge_edge_; }
   std::size_t count() const { return point_triangle_.size() + edge_edge_.size(); }
@@ -89,6 +92,8 @@ class ContactCandidates {
   double extent_ = 0;   // [m]
   bool small_ = false;  // the room around moves is a few times the reach at most
   bool lost_ = false;
+  bool stale_ = false;  // `leave_out` came after the last search
+  std::vector<std::uint8_t> left_out_;
   long searches_ = 0;
 };
 

@@ -146,9 +146,25 @@ void SurfaceContact::begin_step(const StepContext& context) {
     for (const ActivePair& pair : touching_)
       for (const int v : pair.vertices) touched[static_cast<size_t>(v)] = 1;
     for (size_t v = 0; v < level_.size(); ++v)
-      if (level_[v] > 0 && !touched[v]) --level_[v];
+      if (level_[v] > 0 && !touched[v] &&
+          (left_out_.empty() || !left_out_[static_cast<size_t>(surfaces_->surface_of[v])]))
+        --level_[v];
   }
   progress_ = 1;
+}
+
+void SurfaceContact::leave_out(std::span<const std::uint8_t> held) {
+  left_out_.assign(held.empty() ? 0 : surfaces_->surfaces.size(), 1);
+  for (size_t v = 0; v < surfaces_->state_vertex.size() && !left_out_.empty(); ++v) {
+    const auto s = static_cast<size_t>(surfaces_->surface_of[v]);
+    const int i = surfaces_->state_vertex[v];
+    const bool still = i < 0 ? surfaces_->surfaces[s].motion.still()
+                             : held[3 * static_cast<size_t>(i)] && held[3 * static_cast<size_t>(i) + 1] &&
+                                   held[3 * static_cast<size_t>(i) + 2];
+    if (!still) left_out_[s] = 0;
+  }
+  candidates_.leave_out(left_out_);
+  active_progress_ = -1;
 }
 
 double SurfaceContact::value(const Eigen::VectorXd& x) const {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -91,10 +92,16 @@ class SurfaceContact final : public EnergyTerm {
   /// force += change of the gradient (held vertices left out by the caller) when colliders go the rest of their way.
   void add_driven_force(const Eigen::VectorXd& x, Eigen::VectorXd& force);
 
+  /// From now on, surfaces of which every vertex is held (3n flags; empty: none is) do not touch each other, nor
+  /// colliders without a motion.
+  void leave_out(std::span<const std::uint8_t> held);
+
   /// Pairs within reach at x.
   const std::vector<ActivePair>& active(const Eigen::VectorXd& x) const;
   /// Those at the start of the step.
   const std::vector<ActivePair>& touching() const { return touching_; }
+  /// What may come within reach in the step.
+  const ContactCandidates& candidates() const { return candidates_; }
   /// Displacement of a collider's vertex in the step [m]; zero for others.
   Vec3 collider_move(int vertex) const;
 
@@ -131,6 +138,7 @@ class SurfaceContact final : public EnergyTerm {
   SurfaceContactSettings settings_;
   std::vector<double> mass_, material_;  // per contact vertex [kg], [N/m]; infinite for a collider's
   std::vector<double> base_;             // k at level 0, per vertex [N/m^2]
+  std::vector<std::uint8_t> left_out_;   // per surface, or empty
   std::vector<std::uint8_t> level_;      // per vertex: k is 4^level times as large
   double softened_at_ = -1;              // time of the step that did it last [s]
   bool at_bound_ = false;

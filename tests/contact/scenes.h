@@ -25,6 +25,7 @@ class TouchingScene {
   sim::ContactSettings contact;
   sim::SimulationSettings settings;
   Vec3 gravity = kGravity;
+  sim::Damping damping;
   std::vector<sim::Collider> colliders;
   sim::ModelBuilder builder;
 
@@ -47,7 +48,7 @@ class TouchingScene {
 
   sim::Simulation start() {
     builder.set_surfaces(surfaces, rules);
-    return sim::Simulation(builder.finish(gravity, {}, colliders, contact), settings);
+    return sim::Simulation(builder.finish(gravity, damping, colliders, contact), settings);
   }
 
   std::vector<sim::SurfaceInput> surfaces;
