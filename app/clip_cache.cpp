@@ -70,6 +70,7 @@ void ClipCache::write(int frame, const CachedFrame& data) const {
     record.scalars["accuracy/coarse_steps"] = a->coarse_steps;
     record.scalars["accuracy/met"] = a->met ? 1 : 0;
   }
+  if (data.figures.momentum_drift) record.scalars["momentum_drift"] = *data.figures.momentum_drift;
   if (data.figures.asleep) record.scalars["asleep"] = *data.figures.asleep;
   if (data.figures.contact)
     for (const auto& [name, figure] : kContactFigures) record.scalars[name] = *data.figures.contact.*figure;
@@ -103,6 +104,7 @@ std::optional<CachedFrame> ClipCache::read(int frame, int vertices) const {
     data.figures.inverted = s.at("inverted");
     if (s.contains("accuracy/met"))
       data.figures.accuracy = {s.at("accuracy/estimate"), s.at("accuracy/coarse_steps"), s.at("accuracy/met") != 0};
+    if (s.contains("momentum_drift")) data.figures.momentum_drift = s.at("momentum_drift");
     if (s.contains("asleep")) data.figures.asleep = s.at("asleep");
     if (s.contains(kContactFigures.front().first)) {
       data.figures.contact.emplace();

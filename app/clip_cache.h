@@ -36,6 +36,7 @@ struct FrameFigures {
   double inverted = 0;  ///< tetrahedra that are inside out, in this frame
   std::optional<FrameAccuracy> accuracy;
   std::optional<ContactFigures> contact;  ///< where surfaces can touch
+  std::optional<double> momentum_drift;   ///< MomentumWatch::drift, where momentum is kept
   std::optional<double> asleep;           ///< bodies, where they can fall asleep
 };
 

@@ -12,6 +12,7 @@ ClipWorld::ClipWorld(const assets::Scene& scene, const Shapes& shapes) : scene_(
   if (!scene.fields.empty()) fields_ = build_fields(scene, shapes);
   if (!scene.soft.empty() || !scene.cloth.empty() || !scene.springs.empty())
     bodies_ = std::make_unique<sim::Simulation>(build_model(scene, shapes), simulation_settings(scene));
+  if (bodies_ && keeps_momentum(scene)) momentum_.emplace(bodies_->model(), scene.gravity);
 }
 
 std::optional<StepFailure> ClipWorld::step(double h, sim::StepReport& sum) {
@@ -57,6 +58,7 @@ CachedFrame ClipWorld::frame(const sim::StepReport& sum) const {
     frame.state = bodies_->state();
     frame.memory = bodies_->memory();
     frame.figures.energies = bodies_->energies();
+    if (momentum_) frame.figures.momentum_drift = momentum_->drift(frame.state, frame.figures.energies);
     if (bodies_->sleeps()) frame.figures.asleep = bodies_->asleep();
     if (bodies_->model().surfaces) frame.figures.contact = contact_figures(sum);
   } else {

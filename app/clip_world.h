@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/clip_cache.h"
+#include "app/momentum_watch.h"
 #include "app/shapes.h"
 #include "assets/scene.h"
 #include "sim/field.h"
@@ -44,6 +45,7 @@ class ClipWorld {
   const assets::Scene& scene_;
   double t_ = 0;
   std::unique_ptr<sim::Simulation> bodies_;
+  std::optional<MomentumWatch> momentum_;  // where it is kept
   std::vector<sim::Field> fields_;
 };
 

@@ -18,6 +18,8 @@ using sim::Vec3;
 // Within a stable step the energy of the symplectic methods swings by less than this many times what is in motion: by
 // 1/(1 - (h omega/2)^2), 10 at 95 % of the limit. Beyond it energy grows by such a factor every few steps.
 constexpr double kFromNowhere = 20;
+// Momentum that unsolved steps may lose or find: solves that go a thousandth of their way leave less than that.
+constexpr double kMomentumLost = 0.1;
 
 bool has_bodies(const assets::Scene& scene) {
   return !scene.soft.empty() || !scene.cloth.empty() || !scene.springs.empty();
@@ -57,6 +59,11 @@ RunWatch::RunWatch(const assets::Scene& scene, const Shapes& shapes)
 std::optional<std::string> RunWatch::look(CachedFrame& frame) {
   frame.figures.inverted = 0;
   for (const int n : inverted_tets(shapes_, frame.state.x)) frame.figures.inverted += n;
+  if (const double off = frame.figures.momentum_drift.value_or(0); off > kMomentumLost)
+    return fmt::format(
+        "the total momentum is off by {:.0f} % of what is in motion, though nothing but gravity acts on the bodies: "
+        "the steps are not solved far enough (solver.tolerance = {:g}; 1e-3 and less keep it)",
+        100 * off, scene_.solver.tolerance);
   if (!energy_is_kept_) return std::nullopt;
   const sim::Energies& e = frame.figures.energies;
   const double in_motion = e.kinetic + e.elastic + e.contact, total = in_motion + e.gravity + e.dissipated;

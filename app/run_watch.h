@@ -14,7 +14,8 @@ namespace softreel::app {
 std::vector<int> inverted_tets(const Shapes& shapes, const Eigen::VectorXd& x);
 
 /// Stops what blows up before positions run away: explicit methods, in scenes that nothing drives, once energy has come
-/// from nowhere, many times all that was ever in motion.
+/// from nowhere, many times all that was ever in motion; and any method once a tenth of the momentum is lost or found
+/// (MomentumWatch).
 class RunWatch {
  public:
   /// Both must outlive this.

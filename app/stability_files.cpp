@@ -74,10 +74,11 @@ int run_stability_map(const StudyArguments& a, double seconds) {
     throw assets::UserError(assets::ErrorKind::kUsage,
                             "--stability needs --x and --y, such as --x time.substeps=1..64 --y "
                             "time.integrator=verlet,rk4");
-  const MapRequest request{a.scene, a.overrides, parse_axis("--x", a.x, across), parse_axis("--y", a.y, up), seconds};
+  const MapAxis x = parse_axis("--x", a.x, across), y = parse_axis("--y", a.y, up);
   const fs::path output =
       a.output.empty() ? fs::path("out") / (fs::path(a.scene).stem().string() + "-stability") : fs::path(a.output);
   check_output_folder(output);
+  const MapRequest request{a.scene, a.overrides, x, y, seconds, output / "cache" / "cells"};
   SharedShapes shapes(output / "cache");
   StabilityMap map;
   {
@@ -85,6 +86,7 @@ int run_stability_map(const StudyArguments& a, double seconds) {
                       "cells");
     map = measure_map(request, shapes, [&] { progress.advance(); });
   }
+  if (map.kept > 0) say(a.quiet, fmt::format("{} cells were measured before", map.kept));
   const MapScore score = score_of(map);
   assets::write_file_atomically(output / "stability.csv", csv_of(map));
   assets::write_file_atomically(output / "stability.json", json_of(a, map, score));

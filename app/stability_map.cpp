@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/forecast.h"
+#include "app/map_store.h"
 #include "app/world.h"
 #include "assets/error.h"
 #include "assets/scene_reader.h"
@@ -109,7 +110,8 @@ MapScore score_of(const StabilityMap& map) {
 
 StabilityMap measure_map(const MapRequest& request, SharedShapes& shapes, const std::function<void()>& done) {
   const Clock::time_point start = Clock::now();
-  StabilityMap map{request.x, request.y, {}};
+  StabilityMap map{request.x, request.y, 0, {}};
+  const MapStore store(request.store);
   std::optional<UserError> refusal;
   bool any = false;
   for (const std::string& y : map.y.values)
@@ -121,7 +123,15 @@ StabilityMap measure_map(const MapRequest& request, SharedShapes& shapes, const 
       MapCell cell;
       try {
         const assets::Scene scene = assets::read_scene(request.scene, overrides);
-        if (left > 0) cell = measure_cell(scene, shapes.of(scene), left);
+        const std::string hash = request.store.empty() ? "" : MapStore::hash_of(scene);
+        const std::optional<MapCell> kept = hash.empty() ? std::nullopt : store.read(hash);
+        if (kept)
+          cell = *kept;
+        else if (left > 0)
+          cell = measure_cell(scene, shapes.of(scene), left);
+        map.kept += kept ? 1 : 0;
+        const bool measured = std::find(kMeasured.begin(), kMeasured.end(), cell.outcome) != kMeasured.end();
+        if (!hash.empty() && !kept && measured) store.write(hash, cell);
         any = true;
       } catch (const UserError& e) {
         cell = {Outcome::kRefused, 0, 0, e.problems().front().message};

@@ -1,5 +1,6 @@
 #pragma once
 // Which settings hold: a scene run at every point of a grid over two of its keys, beside what the forecast says.
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -33,6 +34,7 @@ struct MapCell {
 
 struct StabilityMap {
   MapAxis x, y;
+  int kept = 0;                ///< cells that were measured before
   std::vector<MapCell> cells;  ///< rows of y, each along x
 
   const MapCell& at(size_t column, size_t row) const { return cells[row * x.values.size() + column]; }
@@ -50,6 +52,8 @@ struct MapRequest {
   std::vector<std::string> overrides;
   MapAxis x, y;
   double seconds = 0;  ///< for all of it; what is left then is not run
+  /// Where measured cells are kept, and looked for before they are measured; empty: nowhere.
+  std::filesystem::path store;
 };
 
 /// Runs them all; a cell that cannot be read or built is refused, not an error, unless all are. `done` is called after

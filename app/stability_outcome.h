@@ -1,5 +1,6 @@
 #pragma once
 // What became of a trial, judged by its energies.
+#include <array>
 #include <string_view>
 
 #include "app/trial.h"
@@ -15,6 +16,10 @@ enum class Outcome {
   kRefused,       ///< the scene cannot be built so
   kNotRun,        ///< no time was left
 };
+
+/// What a run can come to: all but kRefused and kNotRun.
+inline constexpr std::array kMeasured = {Outcome::kHeld, Outcome::kDampedAway, Outcome::kDrifted, Outcome::kBlewUp,
+                                         Outcome::kNotConverged};
 
 /// "held", "damped away", "drifted", "blew up", "did not converge", "refused", "not run".
 std::string_view outcome_name(Outcome outcome);

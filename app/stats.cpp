@@ -140,6 +140,8 @@ void write_stats(const std::filesystem::path& file, const RunFigures& run) {
   per_frame("retried_steps", [](const FrameFigures& f) { return static_cast<long>(f.retried_steps); });
   per_frame("residual", [](const FrameFigures& f) { return f.residual; });
   per_frame("inverted_tets", [](const FrameFigures& f) { return static_cast<long>(f.inverted); });
+  if (!run.per_frame.empty() && run.per_frame.front().momentum_drift)
+    per_frame("momentum_drift", [](const FrameFigures& f) { return f.momentum_drift.value_or(0); });
   if (!run.per_frame.empty() && run.per_frame.front().asleep)
     per_frame("asleep", [](const FrameFigures& f) { return static_cast<long>(f.asleep.value_or(0)); });
   // Where surfaces can touch.

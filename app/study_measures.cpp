@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/momentum_watch.h"
 #include "app/world.h"
 #include "sim/collider.h"
 
@@ -31,13 +32,6 @@ bool keeps_energy(const assets::Scene& s) {
     return false;
   return std::all_of(s.loads.begin(), s.loads.end(),
                      [](const assets::Load& l) { return l.from == 0 && l.ramp == 0 && !l.until; });
-}
-
-bool keeps_momentum(const assets::Scene& s) {
-  return s.time.integrator != "static" && s.colliders.empty() && s.loads.empty() && !s.wind && s.damping.drag == 0 &&
-         s.damping.alpha == 0 && !any_body(s, [](const assets::Body& b) {
-           return !b.pins.empty() || b.mass == assets::MassModel::kConsistent;  // momenta are summed over lumped masses
-         });
 }
 
 struct Momenta {

@@ -1,9 +1,12 @@
 #include "app/study_row.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "assets/atomic_file.h"
 #include "assets/error.h"
@@ -18,44 +21,49 @@ using nlohmann::json;
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 double number_of(const json& j) { return j.is_null() ? std::numeric_limits<double>::infinity() : j.get<double>(); }
 
-void put(json& j, const char* key, const std::optional<double>& value) {
-  if (value) j[key] = number(*value);
-}
-void take(const json& j, const char* key, std::optional<double>& value) {
-  if (j.contains(key)) value = number_of(j.at(key));
-}
-
 constexpr const char* kEnds[] = {"refused", "failed", "blew up", "out of budget"};
 
+constexpr std::array<std::pair<const char*, double PositionErrors::*>, 6> kErrors = {{
+    {"end_rms_m", &PositionErrors::end},
+    {"clip_rms_m", &PositionErrors::clip},
+    {"worst_rms_m", &PositionErrors::worst},
+    {"largest_m", &PositionErrors::largest},
+    {"end_rms_px", &PositionErrors::end_px},
+    {"largest_px", &PositionErrors::largest_px},
+}};
+
+constexpr std::array<std::pair<const char*, std::optional<double> Drifts::*>, 6> kDrifts = {{
+    {"energy", &Drifts::energy},
+    {"momentum", &Drifts::momentum},
+    {"angular_momentum", &Drifts::angular},
+    {"volume", &Drifts::volume},
+    {"penetration_m", &Drifts::penetration},
+    {"pins_m", &Drifts::pins},
+}};
+
 json errors_json(const PositionErrors& e) {
-  return {{"end_rms_m", number(e.end)},     {"clip_rms_m", number(e.clip)},   {"worst_rms_m", number(e.worst)},
-          {"largest_m", number(e.largest)}, {"end_rms_px", number(e.end_px)}, {"largest_px", number(e.largest_px)}};
+  json j = json::object();
+  for (const auto& [name, figure] : kErrors) j[name] = number(e.*figure);
+  return j;
 }
 
 PositionErrors errors_of(const json& j) {
-  return {number_of(j.at("end_rms_m")), number_of(j.at("clip_rms_m")), number_of(j.at("worst_rms_m")),
-          number_of(j.at("largest_m")), number_of(j.at("end_rms_px")), number_of(j.at("largest_px"))};
+  PositionErrors e;
+  for (const auto& [name, figure] : kErrors) e.*figure = number_of(j.at(name));
+  return e;
 }
 
 json drifts_json(const Drifts& d) {
   json j = json::object();
-  put(j, "energy", d.energy);
-  put(j, "momentum", d.momentum);
-  put(j, "angular_momentum", d.angular);
-  put(j, "volume", d.volume);
-  put(j, "penetration_m", d.penetration);
-  put(j, "pins_m", d.pins);
+  for (const auto& [name, figure] : kDrifts)
+    if (d.*figure) j[name] = number(*(d.*figure));
   return j;
 }
 
 Drifts drifts_of(const json& j) {
   Drifts d;
-  take(j, "energy", d.energy);
-  take(j, "momentum", d.momentum);
-  take(j, "angular_momentum", d.angular);
-  take(j, "volume", d.volume);
-  take(j, "penetration_m", d.penetration);
-  take(j, "pins_m", d.pins);
+  for (const auto& [name, figure] : kDrifts)
+    if (j.contains(name)) d.*figure = number_of(j.at(name));
   return d;
 }
 

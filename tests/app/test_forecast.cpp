@@ -154,6 +154,13 @@ TEST_CASE("check prints frequency, limit, growth and what to do, and says what h
                        "diverges: h omega"));
 }
 
+TEST_CASE("check tells what an accuracy will do to the step instead of judging one") {
+  const std::string out = check(kBlock, {"time.accuracy=\"1 mm\""});
+  CHECK(test::contains(out, "steps as an error of 1 mm needs them"));
+  CHECK_FALSE(test::contains(out, "is unstable"));
+  CHECK_FALSE(test::contains(check(kBlock), "steps as an error"));
+}
+
 TEST_CASE("What implicit Euler takes from a motion of 1 Hz per second is what the oscillator loses") {
   const std::string out = check(kChain, {"time.integrator=implicit-euler"});
   std::smatch match;

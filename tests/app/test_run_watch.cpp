@@ -92,3 +92,55 @@ TEST_CASE("Tetrahedra that are inside out are counted, body by body and in the s
   CHECK(stats.at("per_frame").at("steps").at(1) == 8);
   CHECK(stats.at("per_frame").at("inverted_tets").at(3) == 0);
 }
+
+TEST_CASE("The momentum watch sees momentum that no force has brought, and only where it is kept") {
+  test::TempFolder folder;
+  const std::string file = folder.write("scene.toml", kSlowlyUnstable).string();
+  // Gravity, a throw and a spin: the momentum is that of the fall, for every method, up to how far steps are solved.
+  const std::vector<std::string> thrown = {"gravity=[0,-9.81,0]", "soft.die.velocity=[1,2,3]", "time.duration=0.4"};
+  for (const std::string method : {"symplectic-euler", "implicit-euler", "bdf2", "newmark", "verlet"}) {
+    INFO(method);
+    std::vector<std::string> arguments = {"simulate", file,
+                                          "-o",       (folder / method).string(),
+                                          "--set",    "time.substeps=8",
+                                          "--set",    "time.integrator=\"" + method + "\""};
+    for (const std::string& key : thrown) arguments.insert(arguments.end(), {"--set", key});
+    const auto drift = test::stats_of(arguments, folder).at("per_frame").at("momentum_drift");
+    REQUIRE(drift.size() == 20);
+    for (const double d : drift) CHECK(d < 1e-3);  // solver.tolerance
+  }
+  const auto has_drift = [&](const std::string& more) {
+    const auto stats = test::stats_of({"simulate", file, "-o", (folder / "other").string(), "--set", "time.substeps=8",
+                                       "--frames", "1-2", "--set", more},
+                                      folder);
+    return stats.at("per_frame").contains("momentum_drift");
+  };
+  CHECK(has_drift("damping.beta=1e-5"));  // takes energy, not momentum
+  CHECK_FALSE(has_drift("damping.drag=0.1"));
+  CHECK_FALSE(has_drift("soft.die.pins=[{vertices=[0]}]"));
+  const assets::Scene scene = assets::read_scene(file, {});
+  const app::Shapes shapes = app::load_shapes(scene, {});
+  app::RunWatch watch(scene, shapes);
+  app::CachedFrame frame;
+  frame.state.x = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(shapes.soft[0].rest.vertices.size()));
+  frame.figures.energies.kinetic = 1;
+  frame.figures.momentum_drift = 0.09;
+  CHECK_FALSE(watch.look(frame));
+  frame.figures.momentum_drift = 0.12;
+  const auto why = watch.look(frame);
+  REQUIRE(why);
+  CHECK(test::contains(*why, "momentum is off by 12 %"));
+}
+
+TEST_CASE("Steps that are hardly solved lose momentum, and the run says so with the setting to change") {
+  test::TempFolder folder;
+  const std::string file = folder.write("scene.toml", kSlowlyUnstable).string();
+  const test::RunResult result =
+      test::run({"simulate", file, "-o", (folder / "out").string(), "--set", "time.integrator=\"implicit-euler\"",
+                 "--set", "gravity=[0,-9.81,0]", "--set", "solver.method=\"gradient-descent\"", "--set",
+                 "solver.tolerance=0.9", "--set", "soft.die.material.young=1e7"});
+  INFO(result.err);
+  CHECK(result.code == 4);
+  CHECK(test::contains(result.err, "momentum is off by"));
+  CHECK(test::contains(result.err, "solver.tolerance = 0.9"));
+}

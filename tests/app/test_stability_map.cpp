@@ -117,3 +117,42 @@ TEST_CASE("study --regions draws the stability regions of all integrators") {
   CHECK(result.code == 0);
   CHECK(std::filesystem::file_size(folder / "out" / "regions.svg") > 10000);
 }
+
+TEST_CASE("An interrupted or too short map keeps its cells, and the next call goes on from them") {
+  test::TempFolder folder;
+  const std::string scene = folder.write("scene.toml", kDie).string(), out = (folder / "out").string();
+  const auto map = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"study",
+                                          scene,
+                                          "--stability",
+                                          "-o",
+                                          out,
+                                          "--x",
+                                          "time.substeps=20..40",
+                                          "--y",
+                                          "soft.die.material.young=1e3,1e4"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::run(arguments);
+  };
+  const std::filesystem::path cells = folder / "out" / "cache" / "cells";
+  const auto kept = [&] {
+    return std::distance(std::filesystem::directory_iterator(cells), std::filesystem::directory_iterator());
+  };
+  REQUIRE(map({"--cells", "2x2"}).code == 0);
+  const nlohmann::json first = read_json(folder / "out" / "stability.json");
+  CHECK(kept() == 4);
+  const test::RunResult more = map({"--cells", "3x2"});  // 20, 30, 40: two columns are known
+  CHECK(more.code == 0);
+  CHECK(test::contains(more.err, "4 cells were measured before"));
+  CHECK(kept() == 6);
+  const nlohmann::json second = read_json(folder / "out" / "stability.json");
+  CHECK(second.at("cells").at(0) == first.at("cells").at(0));
+  CHECK(second.at("cells").at(5) == first.at("cells").at(3));
+  // A damaged one is measured again, another scene knows none.
+  for (const auto& entry : std::filesystem::directory_iterator(cells)) std::ofstream(entry.path()) << "{\"outcome\": 3";
+  const test::RunResult damaged = map({"--cells", "2x2"});
+  CHECK(damaged.code == 0);
+  CHECK_FALSE(test::contains(damaged.err, "measured before"));
+  CHECK(read_json(folder / "out" / "stability.json").at("cells") == first.at("cells"));
+  CHECK_FALSE(test::contains(map({"--cells", "2x2", "--set", "soft.die.density=900"}).err, "measured before"));
+}

@@ -6,8 +6,8 @@ using namespace softreel;
 TEST_CASE("--version names the program and its libraries") {
   const test::RunResult result = test::run({"--version"});
   CHECK(result.code == 0);
-  for (const char* name :
-       {"softreel ", "OSMesa", "llvmpipe", "Eigen 3.4", "CHOLMOD", "assimp 5.2", "TetGen", "toml++", "GLM"}) {
+  for (const char* name : {"softreel ", "OSMesa", "llvmpipe", "Eigen 3.4", "CHOLMOD", "assimp 5.2", "TetGen", "toml++",
+                           "GLM", "gnuplot /"}) {
     INFO(name);
     std::string flat = result.out;
     for (std::size_t at; (at = flat.find("  ")) != std::string::npos;) flat.erase(at, 1);

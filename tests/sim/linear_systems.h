@@ -40,7 +40,7 @@ inline System real_system(const std::array<int, 3>& cells, double young, double 
   builder.add_pin(std::move(pin));
   System s{builder.finish(Vec3(0, -9.81, 0), {}, {}, {}), {}, {}, {}, {}};
   Pins pins(s.model);
-  IncrementalPotential phi(s.model, pins);
+  IncrementalPotential phi(s.model, pins, terms_of(s.model, {}));
   s.x = s.model.x0 + random_vector(s.model.x0.size(), 0.5 * deformation / cells[1], 4);
   phi.stage().y_tilde = s.x;
   phi.stage().b = Eigen::VectorXd::Zero(s.x.size());

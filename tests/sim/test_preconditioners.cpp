@@ -123,7 +123,7 @@ TEST_CASE("two bodies of very different stiffness are no harder for multigrid th
     builder.add_solid("stiff", block, {"stable-neo-hookean", stiff, 0.4, 1000});
     System s{builder.finish(Vec3::Zero(), {}, {}, {}), {}, {}, {}, {}};
     Pins pins(s.model);
-    IncrementalPotential phi(s.model, pins);
+    IncrementalPotential phi(s.model, pins, terms_of(s.model, {}));
     s.x = s.model.x0;
     phi.stage().y_tilde = s.x;
     phi.stage().b = Eigen::VectorXd::Zero(s.x.size());
