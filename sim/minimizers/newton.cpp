@@ -18,6 +18,11 @@ constexpr int kMostProposals = 4;      // of a direction in one iteration
 constexpr double kLinearShare = 0.3;
 constexpr double kFirstForcing = 1e-2, kForcingFactor = 0.9;
 constexpr double kNearTheEnd = 10;
+// Clamping, and contact that begins within a step, make steps too short: where the slope at the end of a whole step is
+// still this part of what it was, the same direction is gone on with, to where the slope would vanish if it went on to
+// change as it did, and at most so many times the step. That costs no Hessian and no linear solve; out of a saddle
+// point, from which clamped steps grow by a small factor each, it is exponentially faster.
+constexpr double kStillSteep = 0.5, kLongestGoingOn = 4;
 // Shifts, relative to the mean of the diagonal.
 constexpr double kSmallestShift = 1e-8, kLargestShift = 1e6, kShiftGrowth = 10;
 
@@ -86,6 +91,7 @@ void Newton::restore(std::span<const double> saved) {
 
 Minimizer::Failure Newton::begin() {
   next_exact_ = kClampedIterations;
+  last_slope_ = 0;
   const bool clamped =
       modification_ == Modification::kClamped || (modification_ == Modification::kAuto && mistrust_ > 0);
   definiteness_ = clamped ? Definiteness::kClamped : Definiteness::kExact;
@@ -99,6 +105,7 @@ void Newton::end() {
 }
 
 Minimizer::Failure Newton::advance(int iteration, Eigen::VectorXd& y, StepReport& report) {
+  while (iteration > 0 && go_on(y, report)) phi_.gradient(y, g_, report);
   const double norm = g_.norm(), factor = norm / last_norm_;
   forcing_ = constant_        ? 0  // the matrix is right: to the end at once
              : iteration == 0 ? kFirstForcing
@@ -121,6 +128,23 @@ void Newton::assemble(const Eigen::VectorXd& y, StepReport& report) {
   assembled_ = scales;
   applied_shift_ = 0;
   factorized_ = false;
+}
+
+/// Along the last direction, if the last step was too short. False if it was not, or no way down is found there.
+bool Newton::go_on(Eigen::VectorXd& y, StepReport& report) {
+  if (last_slope_ == 0) return false;
+  const double slope = g_.dot(d_), share = slope / last_slope_;
+  const double before = last_length_;
+  last_slope_ = 0;
+  if (!(slope < 0) || share < kStillSteep) return false;
+  const double first = before * (share < 1 ? std::min(share / (1 - share), kLongestGoingOn) : kLongestGoingOn);
+  const double length = search_.along(d_, slope, test_.value_rounding(), first, y, report);
+  if (length == 0) return false;
+  if (length >= first) {
+    last_slope_ = slope;
+    last_length_ = length;
+  }
+  return true;
 }
 
 /// The held go the rest of their way d_h, the others take Newton's step with them: H_ff d_f = -g_f - H_fh d_h. What
@@ -191,6 +215,8 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
           test_.look_at_slope(slope);
           test_.look_at_step(y, d_, length >= 1);
         }
+        last_slope_ = length >= 1 && applied_shift_ == 0 && !hardened && !constant_ ? slope : 0;
+        last_length_ = length;
         shift_ = shift_ > kSmallestShift ? shift_ / kShiftGrowth : 0;
         return true;
       }

@@ -43,6 +43,7 @@ class Newton final : public Minimizer {
 
   void prepare();
   void assemble(const Eigen::VectorXd& y, StepReport& report);
+  bool go_on(Eigen::VectorXd& y, StepReport& report);
   bool step(int iteration, Eigen::VectorXd& y, StepReport& report, std::string& failure);
   void clamp_for_a_while(int iteration, bool indefinite);
   bool shift_more();
@@ -57,6 +58,8 @@ class Newton final : public Minimizer {
   int next_mistrust_ = 0;    // and so many after the next exact Hessian that is indefinite: this twice, and one
   bool mistrusted_ = false;  // in this solve
   double forcing_ = 0;       // relative residual that this iteration's linear solve is worth
+  double last_slope_ = 0;    // of the last step along d_, at its beginning; 0: it is not to be gone on with
+  double last_length_ = 0;   // of that step, in d_
   double last_norm_ = 0;     // of the gradient, one iteration ago
   std::unique_ptr<LinearSolver> linear_;
   LineSearch search_;
