@@ -18,6 +18,10 @@ constexpr double kWeightOfNew = 0.125;  // of a solve, in the mean number of ite
 // The first time that iterations cost too much, so many solves are direct before they are tried again; every further
 // time in a row twice as many and these, up to the longest.
 constexpr long kFirstPause = 2, kLongestPause = 64;
+// A matrix that stays is factorized if that costs no more than so many solves by iteration: a second of a clip, most
+// often.
+constexpr double kSolvesOfOneMatrix = 60;
+constexpr long kForever = 1L << 50;  // a double holds it exactly
 
 }  // namespace
 
@@ -90,6 +94,11 @@ void AutoSolver::judge(const LinearReport& report) {
   mean_ = afresh ? iterations : mean_ + kWeightOfNew * (iterations - mean_);
   direct_ = !report.ok && mean_ > static_cast<double>(affordable());
   direct_solves_ = 0;
+  if (same_matrix_ && kSolvesOfOneMatrix * mean_ > static_cast<double>(affordable())) {
+    direct_ = true;
+    pause_ = kForever;
+    return;
+  }
   if (direct_)
     pause_ = std::min(2 * pause_ + kFirstPause, kLongestPause);
   else

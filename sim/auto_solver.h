@@ -11,6 +11,7 @@ class AutoSolver final : public LinearSolver {
   void analyse(const BlockMatrix& A) override;
   void factorize(const BlockMatrix& A) override;
   LinearReport solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) override;
+  void expect_same_matrix() override { same_matrix_ = true; }
   std::size_t bytes() const override;
   std::vector<double> memory() const override;
   void restore(std::span<const double> saved) override;
@@ -30,6 +31,7 @@ class AutoSolver final : public LinearSolver {
   bool current_ = false;                         // the factor is analysed for the pattern of A_
   bool factored_ = false, conditioned_ = false;  // A_ is as cholesky_, cg_ know it
   double work_ = 0;                              // of a factorization, as counted when it was last looked at; 0: never
+  bool same_matrix_ = false;                     // it is factorized once for many solves
   bool direct_ = false;                          // iterations are too expensive at present
   long direct_solves_ = 0;                       // since they were last tried
   long pause_ = 0;                               // direct ones until they are tried again

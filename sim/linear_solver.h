@@ -44,6 +44,9 @@ class LinearSolver {
   /// x is written, not read.
   virtual LinearReport solve(const Eigen::VectorXd& b, const LinearTargets& targets, Eigen::VectorXd& x) = 0;
 
+  /// Before all else: matrices stay for many solves (constant Hessians, equal steps).
+  virtual void expect_same_matrix() {}
+
   /// Memory that the solver took at its peak, without A itself [bytes].
   virtual std::size_t bytes() const = 0;
 

@@ -57,7 +57,9 @@ Newton::Newton(const Model& model, IncrementalPotential& phi, const LinearSettin
           static_cast<Modification>(&find_method(kModifications, settings.hessian, "Hessian") - kModifications.data())),
       linear_(make_linear_solver(linear_solver)),
       search_(phi, settings.line_search),
-      constant_(constant_hessians(model)) {}
+      constant_(constant_hessians(model)) {
+  if (constant_) linear_->expect_same_matrix();
+}
 
 /// Builds the pattern and the symbolic work before the first step needs it (a resumed run restores into it).
 void Newton::prepare() {
