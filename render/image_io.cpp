@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/error.h"
+#include "render/hdr_check.h"
 #include "render/jpeg_check.h"
 #include "render/png_decode.h"
 
@@ -48,6 +49,7 @@ Image load_image(std::span<const std::byte> bytes, const std::string& name) {
   int height = 0;
   int channels = 0;
   if (const std::string damage = jpeg_damage(bytes); !damage.empty()) refuse(name, damage);
+  if (const std::string damage = hdr_damage(bytes); !damage.empty()) refuse(name, damage);
   // The header alone first: an absurd size must not ask for memory.
   if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0)
     refuse(name, fmt::format("{} (PNG, JPEG, TGA, BMP and HDR can be read)", stbi_failure_reason()));

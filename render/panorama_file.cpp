@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/error.h"
+#include "render/hdr_check.h"
 #include "render/image_io.h"
 #include "render/look.h"
 #include "render/panorama.h"
@@ -35,6 +36,8 @@ HdrImage from_bytes(const std::filesystem::path& path) {
 
 HdrImage load_hdr(const std::filesystem::path& path) {
   if (stbi_is_hdr(path.c_str()) == 0) return from_bytes(path);
+  if (const std::string damage = hdr_damage(read_picture_file(path)); !damage.empty())
+    throw RenderError(RenderErrorKind::kInput, "cannot use " + path.string() + " as a picture: " + damage);
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<float, decltype(&stbi_image_free)> data(stbi_loadf(path.c_str(), &width, &height, &channels, 3),
                                                                 &stbi_image_free);

@@ -107,6 +107,30 @@ TEST_CASE("a JPEG whose Huffman table has more codes than there are bytes is ref
   }
 }
 
+TEST_CASE("an HDR picture that is cut short or has runs of no length is refused at once, wherever it ends") {
+  // 8 x 2 pixels, run-length encoded: each channel of a row as one run of 8 and, in the second row, as 8 single values.
+  std::string whole = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 8\n";
+  const std::size_t header = whole.size();
+  const std::string row("\x02\x02\x00\x08", 4);
+  whole += row;
+  for (int channel = 0; channel < 4; ++channel) whole += "\x88\x80";
+  whole += row;
+  for (int channel = 0; channel < 4; ++channel) whole += std::string("\x08") + std::string(8, '\x7f');
+  const auto load = [](const std::string& text) {
+    return load_image(std::as_bytes(std::span(text.data(), text.size())), "light.hdr");
+  };
+  const Image image = load(whole);
+  CHECK(image.width == 8);
+  CHECK(image.height == 2);
+  for (std::size_t size = header; size < whole.size(); ++size) CHECK_THROWS_AS(load(whole.substr(0, size)), RenderError);
+  std::string empty_run = whole;
+  empty_run[header + 4] = '\0';
+  CHECK_THROWS_WITH_AS(load(empty_run), doctest::Contains("a run of its pixels has no length"), RenderError);
+  std::string too_long = whole;
+  too_long[header + 4] = '\x89';
+  CHECK_THROWS_WITH_AS(load(too_long), doctest::Contains("beyond the end of a row"), RenderError);
+}
+
 TEST_CASE("kinds of pictures whose readers are not safe are not read") {
   const ScratchFolder folder;
   for (const std::string header : {"P6 2 2 65535\n", "P5 2 2 255\n", "GIF89a", "8BPS"}) {
