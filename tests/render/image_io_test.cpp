@@ -122,7 +122,8 @@ TEST_CASE("an HDR picture that is cut short or has runs of no length is refused 
   const Image image = load(whole);
   CHECK(image.width == 8);
   CHECK(image.height == 2);
-  for (std::size_t size = header; size < whole.size(); ++size) CHECK_THROWS_AS(load(whole.substr(0, size)), RenderError);
+  for (std::size_t size = header; size < whole.size(); ++size)
+    CHECK_THROWS_AS(load(whole.substr(0, size)), RenderError);
   std::string empty_run = whole;
   empty_run[header + 4] = '\0';
   CHECK_THROWS_WITH_AS(load(empty_run), doctest::Contains("a run of its pixels has no length"), RenderError);
