@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
+#include <future>
 
 #include "app/arguments.h"
 #include "app/clip_run.h"
@@ -47,7 +49,14 @@ int run_turntable(const TurntableArguments& a) {
           assets::ErrorKind::kUsage,
           fmt::format("--color {}: expected \"#rrggbb\" or a colour's name such as \"red\"", a.color));
   }
-  const assets::ImportedSurface surface = load(a);
+  // The mesh is read by a process of its own: meanwhile OSMesa is loaded and its context made.
+  std::future<assets::ImportedSurface> loaded = std::async(std::launch::async, load, std::cref(a));
+  render::RenderOptions options;
+  options.width = a.size[0];
+  options.height = a.size[1];
+  options.samples = a.samples;
+  render::Renderer renderer(options);
+  const assets::ImportedSurface surface = loaded.get();
   for (const std::string& name : surface.missing_textures)
     say(a.quiet, fmt::format("note: texture '{}' was not found; drawn without", name));
 
@@ -55,11 +64,6 @@ int run_turntable(const TurntableArguments& a) {
   render::Bounds bounds;
   for (const sim::Vec3& p : surface.welded.vertices) points.push_back(to_glm(p));
   bounds.add(points);
-  render::RenderOptions options;
-  options.width = a.size[0];
-  options.height = a.size[1];
-  options.samples = a.samples;
-  render::Renderer renderer(options);
   DrawnSurface drawn = drawn_surface({}, surface, static_cast<int>(points.size()), look, {}, true);
   const render::MeshId mesh = renderer.add_mesh(std::move(drawn.mesh), std::move(drawn.looks));
   renderer.set_positions(mesh, points);

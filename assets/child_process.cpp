@@ -2,8 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,7 +18,6 @@
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "assets/worker_protocol.h"
@@ -97,6 +98,26 @@ struct Reaper {
   }
 };
 
+/// Wakes as soon as a child has ended.
+class EndOfProcess {
+ public:
+  explicit EndOfProcess(pid_t pid) : fd_(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0u))) {}
+  ~EndOfProcess() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  EndOfProcess(const EndOfProcess&) = delete;
+  EndOfProcess& operator=(const EndOfProcess&) = delete;
+  /// Until then, for `longest` at most; where the system has no such descriptors (Linux before 5.3, some sandboxes),
+  /// always as long.
+  void wait(std::chrono::milliseconds longest) const {
+    pollfd end = {fd_, POLLIN, 0};
+    ::poll(&end, fd_ >= 0 ? 1 : 0, static_cast<int>(longest.count()));
+  }
+
+ private:
+  int fd_;
+};
+
 /// This program, by its name: under valgrind /proc/self/exe itself is valgrind. When the file was replaced meanwhile,
 /// its name leads nowhere ("... (deleted)"), and only the link does.
 std::string own_program() {
@@ -121,6 +142,9 @@ pid_t spawn(const std::string& task, std::size_t memory_bytes, const SpawnAction
   for (char** e = environ; *e; ++e) environment.push_back(*e);
   std::string mark = std::string(kWorkerVariable) + "=1";
   environment.push_back(mark.data());
+  // A worker multiplies no matrices, but OpenBLAS would start its threads, which spin for a while.
+  std::string one_thread = "OPENBLAS_NUM_THREADS=1";
+  environment.push_back(one_thread.data());
   environment.push_back(nullptr);
   pid_t pid = 0;
   const std::string program = own_program();
@@ -160,9 +184,10 @@ ChildResult run_worker(const std::string& task, std::string_view input, const Ch
   const auto start = Clock::now();
   Reaper child{spawn(task, limits.memory_bytes, actions)};
   running = child.pid;
+  const EndOfProcess ended(child.pid);
 
   ChildResult result;
-  auto pause = std::chrono::microseconds(500);
+  constexpr std::chrono::milliseconds kPollEvery(20);
   for (;;) {
     int status = 0;
     const pid_t got = ::waitpid(child.pid, &status, WNOHANG);
@@ -183,8 +208,7 @@ ChildResult run_worker(const std::string& task, std::string_view input, const Ch
       return result;
     }
     if (limits.poll) limits.poll();
-    std::this_thread::sleep_for(pause);
-    pause = std::min(pause * 2, std::chrono::microseconds(20000));
+    ended.wait(kPollEvery);
   }
   result.output = out.contents();
   return result;
