@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "assets/drop_unused.h"
 #include "assets/error.h"
@@ -21,22 +23,6 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t v) {
   h ^= v + 0x9e3779b97f4a7c15ull + (h << 6) + (h >> 2);
   return h * 0xff51afd7ed558ccdull;
 }
-
-/// What makes two corners the same vertex of the picture: bit by bit.
-struct Corner {
-  int position;
-  std::uint32_t bits[5];  // uv, normal
-  bool operator==(const Corner& o) const {
-    return position == o.position && std::memcmp(bits, o.bits, sizeof bits) == 0;
-  }
-};
-struct CornerHash {
-  std::size_t operator()(const Corner& c) const {
-    std::uint64_t h = static_cast<std::uint64_t>(c.position);
-    for (const std::uint32_t b : c.bits) h = mix(h, b);
-    return static_cast<std::size_t>(h);
-  }
-};
 
 struct Cell {
   std::int64_t x, y, z;
@@ -70,8 +56,11 @@ Welding weld(const std::vector<sim::Vec3>& positions, double tolerance) {
   double largest = 0;
   for (const sim::Vec3& p : positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   const double cell = std::max({2 * tolerance, largest * 1e-15, std::numeric_limits<double>::min()});
-  std::unordered_map<Cell, std::vector<int>, CellHash> cells;
-  cells.reserve(positions.size());
+  // The vertices of a cell are a chain: the last one found, and for each vertex the one before it.
+  std::unordered_map<Cell, int, CellHash> last_in;
+  last_in.reserve(positions.size());
+  std::vector<int> before;
+  before.reserve(positions.size());
   const auto index = [&](double v) { return static_cast<std::int64_t>(std::floor(v / cell)); };
   for (const sim::Vec3& p : positions) {
     int match = -1;
@@ -80,9 +69,9 @@ Welding weld(const std::vector<sim::Vec3>& positions, double tolerance) {
     for (auto x = lo.x; x <= hi.x; ++x) {
       for (auto y = lo.y; y <= hi.y; ++y) {
         for (auto z = lo.z; z <= hi.z; ++z) {
-          const auto found = cells.find({x, y, z});
-          if (found == cells.end()) continue;
-          for (const int v : found->second) {
+          const auto found = last_in.find({x, y, z});
+          if (found == last_in.end()) continue;
+          for (int v = found->second; v >= 0; v = before[static_cast<std::size_t>(v)]) {
             if ((result.vertices[static_cast<std::size_t>(v)] - p).norm() > tolerance) continue;
             if (match < 0 || v < match) match = v;
           }
@@ -92,7 +81,8 @@ Welding weld(const std::vector<sim::Vec3>& positions, double tolerance) {
     if (match < 0) {
       match = static_cast<int>(result.vertices.size());
       result.vertices.push_back(p);
-      cells[{index(p.x()), index(p.y()), index(p.z())}].push_back(match);
+      const auto [at, fresh] = last_in.try_emplace({index(p.x()), index(p.y()), index(p.z())}, match);
+      before.push_back(fresh ? -1 : std::exchange(at->second, match));
     }
     result.of.push_back(match);
   }
@@ -111,20 +101,26 @@ ImportedSurface build_surface(RawSurface raw, const std::string& name, const Mes
   out.missing_textures = std::move(raw.missing_textures);
   out.dropped_other = static_cast<int>(std::min<std::int64_t>(raw.dropped_other, std::numeric_limits<int>::max()));
   out.welded.vertices = std::move(welding.vertices);
-  std::unordered_map<Corner, int, CornerHash> corners;
-  corners.reserve(raw.positions.size());
+  // Corners of one position are one vertex of the picture where texture coordinates and normal are the same bit by bit.
+  std::vector<int> last_at(out.welded.vertices.size(), -1);  // render vertex, and for each the one before it
+  std::vector<int> before;
+  std::vector<int> raw_of;
+  const auto same_corner = [&](std::size_t a, std::size_t b) {
+    return (raw.uv.empty() || std::memcmp(raw.uv[a].data(), raw.uv[b].data(), 8) == 0) &&
+           (raw.normals.empty() || std::memcmp(raw.normals[a].data(), raw.normals[b].data(), 12) == 0);
+  };
   const auto render_vertex = [&](int raw_vertex) {
     const auto r = static_cast<std::size_t>(raw_vertex);
-    Corner corner = {welding.of[r], {}};
-    if (!raw.uv.empty()) std::memcpy(corner.bits, raw.uv[r].data(), 8);
-    if (!raw.normals.empty()) std::memcpy(corner.bits + 2, raw.normals[r].data(), 12);
-    const auto [at, fresh] = corners.try_emplace(corner, static_cast<int>(out.position_of.size()));
-    if (fresh) {
-      out.position_of.push_back(corner.position);
-      if (!raw.uv.empty()) out.uv.push_back(raw.uv[r]);
-      if (!raw.normals.empty()) out.normals.push_back(raw.normals[r]);
-    }
-    return at->second;
+    int& last = last_at[static_cast<std::size_t>(welding.of[r])];
+    for (int v = last; v >= 0; v = before[static_cast<std::size_t>(v)])
+      if (same_corner(static_cast<std::size_t>(raw_of[static_cast<std::size_t>(v)]), r)) return v;
+    before.push_back(last);
+    raw_of.push_back(raw_vertex);
+    last = static_cast<int>(out.position_of.size());
+    out.position_of.push_back(welding.of[r]);
+    if (!raw.uv.empty()) out.uv.push_back(raw.uv[r]);
+    if (!raw.normals.empty()) out.normals.push_back(raw.normals[r]);
+    return last;
   };
   for (SurfacePart& part : raw.parts) {
     const int first = static_cast<int>(out.triangles.size());

@@ -102,32 +102,31 @@ UnionFind join_smooth_corners(const SurfaceMesh& mesh, std::span<const glm::vec3
 
 void group_by_crease(SurfaceMesh& mesh, std::span<const glm::vec3> positions, float crease_angle) {
   UnionFind corners = join_smooth_corners(mesh, positions, crease_angle);
-  const SurfaceMesh before = mesh;
-  mesh.normal_of.assign(before.position_of.size(), ~0u);
+  constexpr std::uint32_t kNone = ~0u;
+  mesh.normal_of.assign(mesh.position_of.size(), kNone);
 
-  std::unordered_map<std::uint32_t, std::uint32_t> group_of_root;
+  std::vector<std::uint32_t> group_of_root(3 * mesh.triangles.size(), kNone);
+  std::uint32_t group_count = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> copy_of;  // (old vertex, group) -> new vertex
-  for (std::size_t triangle = 0; triangle < before.triangles.size(); ++triangle)
+  for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle)
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t root = corners.find(static_cast<std::uint32_t>(3 * triangle) + static_cast<std::uint32_t>(k));
-      const auto next_group = static_cast<std::uint32_t>(group_of_root.size());
-      const std::uint32_t group = group_of_root.try_emplace(root, next_group).first->second;
-      const std::uint32_t vertex = before.triangles[triangle][k];
-      if (mesh.normal_of[vertex] == ~0u) mesh.normal_of[vertex] = group;
+      std::uint32_t& group = group_of_root[corners.find(static_cast<std::uint32_t>(3 * triangle + k))];
+      if (group == kNone) group = group_count++;
+      const std::uint32_t vertex = mesh.triangles[triangle][k];
+      if (mesh.normal_of[vertex] == kNone) mesh.normal_of[vertex] = group;
       if (mesh.normal_of[vertex] == group) continue;
       const std::uint64_t key = (static_cast<std::uint64_t>(vertex) << 32) | group;
       const auto [place, fresh] = copy_of.try_emplace(key, static_cast<std::uint32_t>(mesh.position_of.size()));
       if (fresh) {
-        mesh.position_of.push_back(before.position_of[vertex]);
+        mesh.position_of.push_back(std::uint32_t{mesh.position_of[vertex]});
         mesh.normal_of.push_back(group);
-        if (!before.uv.empty()) mesh.uv.push_back(before.uv[vertex]);
+        if (!mesh.uv.empty()) mesh.uv.push_back(glm::vec2{mesh.uv[vertex]});
       }
       mesh.triangles[triangle][k] = place->second;
     }
   // Vertices that no triangle uses still need a group of their own.
-  auto group_count = static_cast<std::uint32_t>(group_of_root.size());
   for (std::uint32_t& group : mesh.normal_of)
-    if (group == ~0u) group = group_count++;
+    if (group == kNone) group = group_count++;
 }
 
 void group_by_normals(SurfaceMesh& mesh, std::span<const glm::vec3> normals) {
