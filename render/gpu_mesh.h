@@ -1,5 +1,6 @@
 #pragma once
 // A surface on the GPU side: topology once, positions and normals as often as they change.
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -30,6 +31,10 @@ class GpuMesh {
   bool has_positions() const { return !positions_.empty(); }
   std::size_t position_count() const { return mesh_.position_count; }
   std::size_t triangle_count() const { return mesh_.triangles.size(); }
+  /// Whether a look of it shows both sides.
+  bool two_sided() const {
+    return std::any_of(looks_.begin(), looks_.end(), [](const Look& look) { return look.two_sided; });
+  }
   bool is_field() const { return static_cast<bool>(value_buffer_); }
   bool has_rest() const { return static_cast<bool>(rest_buffer_); }
   /// Rest coordinates of a square of half that size, for the ground's pattern; made once [m].

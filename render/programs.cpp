@@ -23,7 +23,7 @@ GLuint Programs::geometry(const GeometryFeatures& features) {
 GLuint Programs::lighting(const LightingFeatures& features) {
   const auto place = lighting_.find(features);
   if (place != lighting_.end()) return *place->second;
-  GlProgram program(gl_, full_target_vertex_source(), lighting_fragment_source(features));
+  GlProgram program(gl_, lighting_vertex_source(features), lighting_fragment_source(features));
   return *lighting_.emplace(features, std::move(program)).first->second;
 }
 

@@ -125,6 +125,7 @@ vec3 lit_by_sky(Surface s, vec3 facet) {
 }
 
 void main() {
+  read_pass();
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uvec4 words = texelFetch(surface_words, pixel, 0);
   bool covered = words.z >= 0x01000000u;

@@ -3,7 +3,7 @@
 
 namespace softreel::render {
 
-extern const char* const kPassBlock;     ///< shader_pass_block.cpp: the uniform block
+extern const char* const kPassBlock;     ///< shader_pass_block.cpp: the uniform block `block`
 extern const char* const kSky;           ///< shader_sky.cpp: light from everywhere
 extern const char* const kReflectance;   ///< shader_reflectance.cpp: microfacet model
 extern const char* const kShadowLookup;  ///< shader_shadow.cpp: soft shadow of one part of a light

@@ -76,9 +76,9 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
     blocker += in_front * stored;
     blockers += in_front;
   }
-  // The search reaches wider than the penumbra: nothing found is full light; nothing but blockers is full shadow, where there
-  // are enough of them to be sure.
-  taps = blockers > 0 && (SHADOW_TAPS < 8 || blockers < taps) ? taps : 0;
+  // The search reaches wider than the penumbra: nothing found is full light. Nothing but blockers is no full shadow yet: where
+  // they are close, as in a fold, the penumbra is narrow and may miss them.
+  taps = blockers > 0 ? SHADOW_TAPS : 0;
   blocker = linear_depth(s.depth, blocker / max(blockers, 1));
   float width = s.filter_size.w * (perspective ? max(1 / blocker - 1 / here, 0) : max(here - blocker, 0));
   vec2 radius = clamp(width * s.filter_size.xy, 1.2 * texel_uv, vec2(kWidest));
@@ -89,7 +89,7 @@ float light_visible(int map, vec3 position, vec3 normal, float n_dot_l) {
     direction = kGoldenTurn * direction;
     light += texture(shadow_compare, vec4(p.xy + d, map, min(z + dot(d, slope), kFarthest)));
   }
-  return taps > 0 ? light / taps : (blockers > 0 ? 0.0 : 1.0);
+  return taps > 0 ? light / taps : 1.0;
 }
 #endif
 )";

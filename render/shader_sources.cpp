@@ -7,6 +7,7 @@
 #include "render/panorama.h"
 #include "render/pass_uniforms.h"
 #include "render/shader_parts.h"
+#include "render/shader_pass_inputs.h"
 
 namespace softreel::render {
 
@@ -61,7 +62,7 @@ void main() {
 #ifdef FIELD
   field_value = value;
 #endif
-  gl_Position = pass.clip_from_world * world;
+  gl_Position = block.clip_from_world * world;
 }
 )";
 
@@ -89,10 +90,6 @@ layout(location = 0) uniform mat4 clip_from_mesh;
 void main() { gl_Position = clip_from_mesh * vec4(position, 1); }
 )";
 
-constexpr const char* kFullTargetVertex = R"(
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }
-)";
-
 }  // namespace
 
 std::string geometry_vertex_source(const GeometryFeatures& features) {
@@ -101,6 +98,12 @@ std::string geometry_vertex_source(const GeometryFeatures& features) {
 
 std::string geometry_fragment_source(const GeometryFeatures& features) {
   return header() + defines_of(features) + kGeometryMain;
+}
+
+std::string lighting_vertex_source(const LightingFeatures& features) {
+  const PassInputs inputs = pass_inputs(features);
+  return header() + kPassBlock + inputs.outputs + "void main() {\n" + inputs.assign +
+         "  gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1);\n}\n";
 }
 
 std::string lighting_fragment_source(const LightingFeatures& features) {
@@ -120,11 +123,10 @@ std::string lighting_fragment_source(const LightingFeatures& features) {
   define(features.panorama, "PANORAMA");
   define(features.panorama_behind, "PANORAMA_BEHIND");
   define(features.shadow_catcher, "SHADOW_CATCHER");
-  return source + kPassBlock + kSky + kReflectance + kShadowLookup + kLightingMain;
+  return source + kPassBlock + pass_inputs(features).inputs + kSky + kReflectance + kShadowLookup + kLightingMain;
 }
 
 std::string shadow_vertex_source() { return header() + kShadowVertex; }
 std::string shadow_fragment_source() { return header() + "void main() {}\n"; }
-std::string full_target_vertex_source() { return header() + kFullTargetVertex; }
 
 }  // namespace softreel::render

@@ -37,12 +37,12 @@ struct GeometryFeatures {
 
 std::string geometry_vertex_source(const GeometryFeatures& features);
 std::string geometry_fragment_source(const GeometryFeatures& features);
+/// One triangle over the whole target.
+std::string lighting_vertex_source(const LightingFeatures& features);
 std::string lighting_fragment_source(const LightingFeatures& features);
 /// Depth only, for shadow maps.
 std::string shadow_vertex_source();
 std::string shadow_fragment_source();
-/// One triangle over the whole target.
-std::string full_target_vertex_source();
 
 /// Attribute and uniform locations shared by the sources and the code that feeds them.
 inline constexpr unsigned kPositionAttribute = 0;

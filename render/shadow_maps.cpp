@@ -42,13 +42,18 @@ void ShadowMaps::draw(int layer, const glm::mat4& clip_from_world, std::span<con
   gl_.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &kFarthest);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LESS);
-  // Both sides: cloth has no inside, and a hole in a body lets light through.
-  gl_.Disable(GL_CULL_FACE);
   gl_.Disable(GL_BLEND);
+  gl_.CullFace(GL_BACK);
   gl_.UseProgram(*program_);
   for (const GpuMesh* mesh : casters) {
     const glm::mat4 clip_from_mesh = clip_from_world * mesh->world_from_mesh;
     gl_.ProgramUniformMatrix4fv(*program_, kClipFromMeshUniform, 1, GL_FALSE, glm::value_ptr(clip_from_mesh));
+    // Of what is seen from both sides, both cast; of a closed body the side towards the light hides the other.
+    if (mesh->two_sided())
+      gl_.Disable(GL_CULL_FACE);
+    else
+      gl_.Enable(GL_CULL_FACE);
+    gl_.FrontFace(glm::determinant(glm::mat3(mesh->world_from_mesh)) < 0 ? GL_CW : GL_CCW);
     mesh->draw(0, mesh->triangle_count());
     ++counters.draw_calls;
   }
