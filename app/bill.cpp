@@ -89,8 +89,15 @@ std::vector<BillItem> bill_of(const Scene& s) {
       : !implicit ? fmt::format("{} is explicit", integrator)
                   : fmt::format("{} uses gradients alone", s.solver.method));
   add("scalar fields", !s.fields.empty(), number(s.fields.size(), "field", "fields"), "there is no field");
-  add("colour bars", count(s.fields, [](const Field& f) { return f.colorbar; }) > 0, "a field shows its scale",
-      s.fields.empty() ? "there is no field" : "colorbar is false");
+  const auto figure = [](const auto& body) { return body.visible && body.data; };
+  const auto figures = count(s.soft, figure) + count(s.cloth, figure);
+  add("figures as colours", figures > 0, number(figures, "body shows its data", "bodies show their data"),
+      "no body has data");
+  const auto scale = [&](const auto& body) { return figure(body) && body.data->colorbar; };
+  add("colour bars",
+      count(s.fields, [](const Field& f) { return f.colorbar; }) + count(s.soft, scale) + count(s.cloth, scale) > 0,
+      "a scale is shown",
+      s.fields.empty() && figures == 0 ? "there is no field, and no body has data" : "colorbar is false");
   add("estimate of the error in time", s.time.accuracy.has_value(),
       "time.accuracy is given: coarser runs, to compare with", "no time.accuracy is given");
   add("shadow maps", count(s.lights, [](const Light& l) { return l.shadow; }) > 0, "a light casts shadows",

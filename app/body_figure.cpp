@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "sim/membrane.h"
@@ -13,6 +14,10 @@ namespace softreel::app {
 BodyFigure::BodyFigure(const assets::SoftBody& body, const SolidShape& shape, int first)
     : show_(body.data->show), first_(first), count_(static_cast<int>(shape.rest.vertices.size())), corners_(4) {
   if (show_ == assets::Quantity::kSpeed) return;
+  if (show_ == assets::Quantity::kPressure) {
+    surface_ = sim::boundary_triangles(shape.rest);
+    return;
+  }
   for (const sim::Tet& t : shape.rest.tets) add_element(shape.rest.vertices, {t[0], t[1], t[2], t[3]}, 1);
   if (show_ != assets::Quantity::kStress) return;
   sim::TetMesh apart;
@@ -27,6 +32,10 @@ BodyFigure::BodyFigure(const assets::SoftBody& body, const SolidShape& shape, in
 BodyFigure::BodyFigure(const assets::Cloth& cloth, const ClothShape& shape, int first)
     : show_(cloth.data->show), first_(first), count_(static_cast<int>(shape.rest.vertices.size())), corners_(3) {
   if (show_ == assets::Quantity::kSpeed) return;
+  if (show_ == assets::Quantity::kPressure) {
+    surface_ = shape.rest.triangles;
+    return;
+  }
   const double thickness = cloth.material.thickness;
   for (const sim::Triangle& t : shape.rest.triangles)
     add_element(shape.rest.vertices, {t[0], t[1], t[2], -1}, thickness);
@@ -64,7 +73,22 @@ Eigen::Matrix3d BodyFigure::edges(const sim::State& state, const Element& elemen
   return d;
 }
 
-Eigen::VectorXd BodyFigure::values(const sim::State& state) const {
+Eigen::VectorXd BodyFigure::pressure(const CachedFrame& frame) const {
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(count_);
+  const auto at = [&](int vertex) -> Eigen::Vector3d { return frame.state.x.segment<3>(3 * (first_ + vertex)); };
+  for (const sim::Triangle& t : surface_) {
+    const double third = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).norm() / 6;
+    for (const int vertex : t) area(vertex) += third;
+  }
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(count_);
+  for (int i = 0; i < count_; ++i)
+    if (area(i) > 0) values(i) = frame.contact_force.segment<3>(3 * (first_ + i)).norm() / area(i);
+  return values;
+}
+
+Eigen::VectorXd BodyFigure::values(const CachedFrame& frame) const {
+  if (show_ == assets::Quantity::kPressure) return pressure(frame);
+  const sim::State& state = frame.state;
   Eigen::VectorXd values = Eigen::VectorXd::Zero(count_);
   if (show_ == assets::Quantity::kSpeed) {
     for (int i = 0; i < count_; ++i) values(i) = state.v.segment<3>(3 * (first_ + i)).norm();
@@ -118,6 +142,8 @@ std::string figure_label(assets::Quantity show) {
       return "Speed [m/s]";
     case assets::Quantity::kStrain:
       return "Strain [-]";
+    case assets::Quantity::kPressure:
+      return "Contact pressure [Pa]";
     case assets::Quantity::kStress:
       break;
   }

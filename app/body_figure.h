@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/clip_cache.h"
 #include "app/shapes.h"
 #include "assets/scene.h"
 #include "sim/energy_term.h"
@@ -18,7 +19,9 @@ class BodyFigure {
   BodyFigure(const assets::Cloth& cloth, const ClothShape& shape, int first);
 
   /// Per vertex of the body. Strain and stress are those of the adjacent elements, weighted by their rest size.
-  Eigen::VectorXd values(const sim::State& state) const;
+  /// Contact pressure is the force that contact adds to the vertex over its share of the surface as it is now; where a
+  /// cloth is touched from both sides the forces cancel.
+  Eigen::VectorXd values(const CachedFrame& frame) const;
 
  private:
   /// Corners of an element at rest, as columns beside the first one, and its size.
@@ -28,11 +31,13 @@ class BodyFigure {
     double size = 0;                // [m^3], or of a cloth [m^2] times thickness
   };
   void add_element(const std::vector<sim::Vec3>& rest, std::array<int, 4> vertices, double thickness);
+  Eigen::VectorXd pressure(const CachedFrame& frame) const;
   Eigen::Matrix3d edges(const sim::State& state, const Element& element) const;
 
   assets::Quantity show_;
   int first_, count_, corners_;
   std::vector<Element> elements_;
+  std::vector<sim::Triangle> surface_;  // of the body; for pressure
   /// All elements side by side, none of which shares a vertex: its gradient holds each one's own forces. For stress.
   std::unique_ptr<sim::EnergyTerm> apart_;
 };

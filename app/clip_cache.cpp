@@ -52,6 +52,7 @@ void ClipCache::write(int frame, const CachedFrame& data) const {
   record.arrays["x"] = to_vector(data.state.x);
   record.arrays["v"] = to_vector(data.state.v);
   record.arrays["memory"] = data.memory;
+  if (data.contact_force.size() > 0) record.arrays["contact_force"] = to_vector(data.contact_force);
   const sim::Energies& e = data.figures.energies;
   record.scalars = {{"t", data.state.t},
                     {"energy/kinetic", e.kinetic},
@@ -92,6 +93,8 @@ std::optional<CachedFrame> ClipCache::read(int frame, int vertices) const {
     data.state.x = to_eigen(record->arrays.at("x"));
     data.state.v = to_eigen(record->arrays.at("v"));
     data.memory = record->arrays.at("memory");
+    if (const auto force = record->arrays.find("contact_force"); force != record->arrays.end())
+      data.contact_force = to_eigen(force->second);
     const auto& s = record->scalars;
     data.state.t = s.at("t");
     data.figures.energies = {s.at("energy/kinetic"), s.at("energy/elastic"), s.at("energy/gravity"),

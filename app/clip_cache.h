@@ -51,6 +51,7 @@ struct CachedFrame {
   std::vector<double> memory;  ///< Simulation::memory
   FrameFigures figures;
   std::vector<CachedField> fields;  ///< as scene.fields
+  Eigen::VectorXd contact_force;    ///< Simulation::contact_forces, where some body shows pressure (else empty)
 };
 
 class ClipCache {

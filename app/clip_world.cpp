@@ -8,7 +8,8 @@
 
 namespace softreel::app {
 
-ClipWorld::ClipWorld(const assets::Scene& scene, const Shapes& shapes) : scene_(scene) {
+ClipWorld::ClipWorld(const assets::Scene& scene, const Shapes& shapes)
+    : scene_(scene), shows_pressure_(shows_pressure(scene)) {
   if (!scene.fields.empty()) fields_ = build_fields(scene, shapes);
   if (!scene.soft.empty() || !scene.cloth.empty() || !scene.springs.empty())
     bodies_ = std::make_unique<sim::Simulation>(build_model(scene, shapes), simulation_settings(scene));
@@ -61,6 +62,10 @@ CachedFrame ClipWorld::frame(const sim::StepReport& sum) const {
     if (momentum_) frame.figures.momentum_drift = momentum_->drift(frame.state, frame.figures.energies);
     if (bodies_->sleeps()) frame.figures.asleep = bodies_->asleep();
     if (bodies_->model().surfaces) frame.figures.contact = contact_figures(sum);
+    if (shows_pressure_) {
+      bodies_->contact_forces(contact_force_);
+      frame.contact_force = contact_force_;
+    }
   } else {
     frame.state.t = t_;
   }
@@ -75,6 +80,7 @@ CachedFrame ClipWorld::frame(const sim::StepReport& sum) const {
 
 void ClipWorld::restore(const CachedFrame& frame) {
   t_ = frame.state.t;
+  contact_force_ = frame.contact_force;
   if (bodies_) bodies_->restore(frame.state, frame.memory);
   for (size_t i = 0; i < fields_.size(); ++i)
     fields_[i].restore(t_, frame.fields[i].value, frame.fields[i].rate, frame.fields[i].memory);

@@ -43,6 +43,8 @@ class ClipWorld {
   ContactFigures contact_figures(const sim::StepReport& sum) const;
 
   const assets::Scene& scene_;
+  bool shows_pressure_ = false;
+  mutable Eigen::VectorXd contact_force_;  // kept from frame to frame for what is asleep
   double t_ = 0;
   std::unique_ptr<sim::Simulation> bodies_;
   std::optional<MomentumWatch> momentum_;  // where it is kept

@@ -93,6 +93,7 @@ void render_frames(const ClipArguments& a, ClipPlan& plan, const std::vector<int
   // Frame 1 whichever frames are asked for, so that each looks the same in every selection.
   if (!whole) add_frame(plan.scene, shapes, must_read(plan.cache, 1), extent);
   Stage stage(plan.scene, shapes, extent);
+  for (const std::string& note : stage.notes()) say(a.quiet, "note: " + note);
   render::FrameWriter writer(1);
   {
     Progress progress("render", static_cast<int>(frames.size()), a.quiet);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/stage.h"
+#include "app/world.h"
 #include "assets/atomic_file.h"
 #include "assets/content_hash.h"
 #include "assets/scene_canonical.h"
@@ -13,8 +14,8 @@ namespace softreel::app {
 namespace {
 
 // Raised when the same scene gives other numbers, or other pixels, than before.
-constexpr int kSimulationVersion = 1;
-constexpr int kPictureVersion = 2;
+constexpr int kSimulationVersion = 2;
+constexpr int kPictureVersion = 3;
 
 /// The lines of an OBJ's material file that name materials: they decide how the importer cuts the mesh up, and so the
 /// order of its vertices.
@@ -57,6 +58,7 @@ std::string simulation_hash(const assets::Scene& scene) {
     // A pixel is as large as the camera sees it.
     if (scene.time.accuracy->unit == "px") hasher.add(assets::canonical_picture(scene));
   }
+  if (shows_pressure(scene)) hasher.add("contact_force");  // its frames hold more
   add_assets(scene, true, hasher);
   return hasher.hex();
 }

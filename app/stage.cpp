@@ -1,5 +1,7 @@
 #include "app/stage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -94,7 +96,7 @@ double round_size(double size) {
   return (size >= 5 * power ? 5 : size >= 2 * power ? 2 : 1) * power;
 }
 
-void add_figures(const assets::Scene& scene, const Shapes& shapes, const sim::State& state, ClipExtent& extent) {
+void add_figures(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& frame, ClipExtent& extent) {
   if (extent.figures.empty()) {
     int first = 0;
     const auto make = [&](const auto& bodies, const auto& of) {
@@ -109,7 +111,7 @@ void add_figures(const assets::Scene& scene, const Shapes& shapes, const sim::St
     extent.figure_ranges.resize(extent.figures.size());
   }
   for (size_t i = 0; i < extent.figures.size(); ++i)
-    if (extent.figures[i]) extent.figure_ranges[i].add(extent.figures[i]->values(state));
+    if (extent.figures[i]) extent.figure_ranges[i].add(extent.figures[i]->values(frame));
 }
 
 render::RenderOptions options_of(const assets::Render& r) {
@@ -174,7 +176,7 @@ void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFra
     }
     extent.add(box);
   });
-  add_figures(scene, shapes, state, extent);
+  add_figures(scene, shapes, frame, extent);
   extent.field_ranges.resize(scene.fields.size());
   for (size_t i = 0; i < scene.fields.size(); ++i) {
     render::Bounds box;
@@ -320,6 +322,11 @@ void Stage::place_ground(const ClipExtent& extent) {
     environment_.panorama =
         std::make_shared<render::Panorama>(sky, static_cast<float>(r.sky), static_cast<float>(r.sky_turn));
     environment_.panorama_behind = r.background.sky;
+    if (sky.mended > 0)
+      notes_.push_back(
+          fmt::format("{}: {} of {} pixels are negative, no finite numbers or brighter than 1e6; these "
+                      "count as black or as 1e6",
+                      r.sky_map, sky.mended, sky.pixels.size()));
   }
   environment_.transparent = r.background.transparent;
   environment_.background_top = to_linear(r.background.top);
@@ -399,7 +406,7 @@ void Stage::move_to(const CachedFrame& frame) {
   for (const DrawnBody& body : bodies_) {
     renderer_.set_positions(body.mesh, points_of(state.x, body.first, body.count));
     if (body.figure)
-      renderer_.set_values(body.mesh, map_places(body.figure->values(state).head(body.count), body.range));
+      renderer_.set_values(body.mesh, map_places(body.figure->values(frame).head(body.count), body.range));
   }
   for (const DrawnNet& net : nets_) renderer_.set_positions(net.mesh, net.shape->positions(state.x, net.first));
   for (const DrawnCollider& c : colliders_)

@@ -2,6 +2,7 @@
 // The scene on stage: renderer, camera, lights and surroundings for a whole clip.
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/body_figure.h"
@@ -48,6 +49,8 @@ class Stage {
   /// Depth, normals and ids of what the last picture shows.
   render::Channels channels();
   const render::Renderer& renderer() const { return renderer_; }
+  /// What the user should know of the files that the picture takes.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   void add_bodies(const Shapes& shapes, const ClipExtent& extent);
@@ -94,6 +97,7 @@ class Stage {
   glm::vec3 followed_start_{0};                  // their mean at t = 0
   std::vector<render::Light> lights_;
   render::Environment environment_;
+  std::vector<std::string> notes_;
   render::Camera last_camera_;
 };
 

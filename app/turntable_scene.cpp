@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "app/clip_run.h"
+#include "app/progress.h"
 #include "app/stage.h"
 #include "app/turntable_pictures.h"
 #include "assets/error.h"
@@ -42,6 +43,7 @@ int run_turntable_scene(const TurntableArguments& a) {
   ClipExtent extent;
   add_frame(plan.scene, shapes, *frame, extent);
   Stage stage(plan.scene, shapes, extent);
+  for (const std::string& note : stage.notes()) say(a.quiet, "note: " + note);
   const glm::vec3 axis = extent.bounds.empty() ? glm::vec3(0) : extent.bounds.centre();
   const auto fov = static_cast<float>(plan.scene.camera.fov);
   const render::Camera first =

@@ -1,6 +1,7 @@
 #include "app/world.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <numbers>
 
@@ -170,6 +171,12 @@ void refuse_free_bodies(const assets::Scene& scene, const sim::Model& model) {
 }
 
 }  // namespace
+
+bool shows_pressure(const assets::Scene& scene) {
+  const auto shows = [](const assets::Body& b) { return b.data && b.data->show == assets::Quantity::kPressure; };
+  return std::any_of(scene.soft.begin(), scene.soft.end(), shows) ||
+         std::any_of(scene.cloth.begin(), scene.cloth.end(), shows);
+}
 
 sim::Collider make_collider(const assets::Collider& c) {
   sim::Collider result;

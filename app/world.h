@@ -13,6 +13,9 @@ sim::Model build_model(const assets::Scene& scene, const Shapes& shapes);
 
 sim::SimulationSettings simulation_settings(const assets::Scene& scene);
 
+/// Does some body show the pressure of contact, which only the running simulation knows?
+bool shows_pressure(const assets::Scene& scene);
+
 sim::Collider make_collider(const assets::Collider& collider);
 
 }  // namespace softreel::app

@@ -30,7 +30,7 @@ enum class ColliderShape { kPlane, kSphere, kBox, kCapsule, kMesh };
 enum class LightKind { kArea, kSun, kRectangle };
 enum class Pattern { kNone, kChecker, kStripes };
 enum class View { kFree, kFront, kBack, kLeft, kRight, kTop, kBottom };
-enum class Quantity { kSpeed, kStrain, kStress };
+enum class Quantity { kSpeed, kStrain, kStress, kPressure };
 enum class Projection { kPerspective, kOrthographic };
 enum class Quality { kDraft, kDefault, kFinal };
 enum class GroundMode { kAuto, kOn, kOff, kShadow };

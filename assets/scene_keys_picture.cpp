@@ -8,7 +8,11 @@ namespace softreel::assets {
 using enum Role;
 
 void walk(KeyVisitor& v, DataView& d) {
-  v.key({"show", kPicture, "", {}, "speed [m/s]; strain: largest principal stretch less 1; stress: von Mises [Pa]"},
+  v.key({"show",
+         kPicture,
+         "",
+         {},
+         "speed [m/s]; strain: largest principal stretch less 1; stress: von Mises [Pa]; pressure: of contact [Pa]"},
         choice(d.show));
   v.key({"colormap", kPicture, "", {}, "coolwarm has its middle in white, the others go from dark to bright"},
         choice(d.colormap));
@@ -113,7 +117,7 @@ void walk(KeyVisitor& v, Render& r) {
          "",
          {},
          "picture of all directions (equirectangular .hdr) that lights the scene; pixels that are no finite numbers "
-         "count as black"},
+         "count as black, brighter ones than 1e6 as that"},
         FileRef{&r.sky_map});
   v.key({"sky_turn", kPicture, "deg", kAngle, "turns sky_map about the vertical"}, &r.sky_turn);
   v.key({"depth", kPicture, "", {}, "also writes depth_0001.png, ...: 16-bit, millimetres along the view"}, &r.depth);

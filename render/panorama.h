@@ -14,7 +14,8 @@ namespace softreel::render {
 struct HdrImage {
   int width = 0, height = 0;      ///< [px]
   std::vector<glm::vec3> pixels;  ///< width * height, finite, >= 0
-  std::size_t mended = 0;         ///< pixels of the file that were not finite or negative; taken as black
+  std::size_t mended = 0;  ///< pixels of the file that were not finite or negative (taken as black), or beyond 1e6
+                           ///< (taken as that)
 };
 
 /// Reads Radiance .hdr (and, as radiance 0..1, what load_image reads). Throws RenderError (kInput).

@@ -56,6 +56,7 @@ HdrImage load_hdr(const std::filesystem::path& path) {
       p = glm::vec3(0);
       ++hdr.mended;
     }
+    if (sound && glm::any(glm::greaterThan(p, glm::vec3(kBrightest)))) ++hdr.mended;
     hdr.pixels.push_back(glm::min(p, kBrightest));
   }
   return hdr;

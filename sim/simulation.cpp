@@ -315,6 +315,18 @@ Energies Simulation::energies() const {
   return e;
 }
 
+void Simulation::contact_forces(Eigen::VectorXd& force) const {
+  if (force.size() != state_.x.size()) force.setZero(state_.x.size());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(state_.x.size());
+  for (const auto& term : model_.potentials)
+    if (term->kind() == EnergyKind::kContact) term->add_gradient(state_.x, gradient);
+  for (std::size_t body = 0; body < model_.bodies.size(); ++body) {
+    if (sleep_ && sleep_->asleep()[body] != 0) continue;
+    const BodyRange& range = model_.bodies[body];
+    force.segment(3 * range.first, 3 * range.count) = -gradient.segment(3 * range.first, 3 * range.count);
+  }
+}
+
 std::vector<double> Simulation::memory() const {
   const std::vector<double> history =
       implicit() ? method_.implicit_method->memory() : method_.explicit_method->memory();

@@ -54,6 +54,9 @@ class Simulation {
   StepReport step(double h);
 
   Energies energies() const;
+  /// What contact does to the vertices now, friction left out, 3n [N]. `force`: entries of bodies that are asleep stay
+  /// as they are (contact among these is not looked at); its size is set where it does not fit.
+  void contact_forces(Eigen::VectorXd& force) const;
   /// How many bodies are asleep.
   bool sleeps() const { return sleep_ != nullptr; }  ///< can any fall asleep?
   int asleep() const { return sleep_ ? sleep_->count() : 0; }

@@ -109,6 +109,8 @@ TEST_CASE("a broken or bent HDR file is answered with an error or mended, never 
   std::string bright = good;
   for (std::size_t i = bright.size() - 1; i + 128 > bright.size(); i -= 4) bright[i] = static_cast<char>(0xff);
   const HdrImage capped = load_hdr(write("bright.hdr", bright));
+  CHECK(image.mended == 0);
+  CHECK(capped.mended == 32);
   const Panorama panorama(capped, 1, 0);
   for (const glm::vec3& c : panorama.irradiance()) CHECK(std::isfinite(c.x + c.y + c.z));
   CHECK_THROWS_AS(load_hdr(write("cut.hdr", good.substr(0, 40))), RenderError);
