@@ -1,5 +1,6 @@
 #include "sim/contact/contact_candidates.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -81,20 +82,57 @@ void ContactCandidates::leave_out(std::vector<std::uint8_t> surfaces) {
   stale_ = true;
 }
 
+/// The rigid motion that takes most of a surface's moves away: its mean, and the turn w of least squares. Any other
+/// would be as safe.
+void ContactCandidates::fit_rigid_move(const ContactSurface& surface) {
+  Vec3 middle = Vec3::Zero(), mean = Vec3::Zero(), spin = Vec3::Zero();
+  const auto each = [&](const auto& visit) {
+    for (int v = surface.first; v < surface.first + surface.count; ++v)
+      visit(start_[static_cast<size_t>(v)], move_[static_cast<size_t>(v)]);
+  };
+  each([&](const Vec3& x, const Vec3& m) {
+    middle += x;
+    mean += m;
+  });
+  if (surface.count > 0) {
+    middle /= surface.count;
+    mean /= surface.count;
+  }
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  double widest = 0;
+  each([&](const Vec3& x, const Vec3& m) {
+    const Vec3 arm = x - middle;
+    spin += arm.cross(m - mean);
+    inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
+    widest = std::max(widest, arm.norm());
+  });
+  Vec3 turn = inertia.ldlt().solve(spin);
+  // A turn that gains less than d_hat is not worth boxes of its own.
+  if (!turn.allFinite() || !(turn.norm() * widest > reach_)) turn.setZero();
+  middle_.push_back(middle);
+  mean_move_.push_back(mean);
+  turn_.push_back(turn);
+}
+
+/// What a vertex moves beside its surface's rigid motion.
+Vec3 ContactCandidates::own_move(size_t v) const {
+  const auto s = static_cast<size_t>(surfaces_.surface_of[v]);
+  return move_[v] - mean_move_[s] - turn_[s].cross(start_[v] - middle_[s]);
+}
+
 void ContactCandidates::begin(const std::vector<Vec3>& x, const std::vector<Vec3>& move) {
   start_ = x;
   move_ = move;
   move2_ = 0;
   for (const Vec3& m : move) move2_ += m.squaredNorm();
   mean_move_.clear();
+  middle_.clear();
+  turn_.clear();
   radius_.resize(x.size());
   for (const ContactSurface& surface : surfaces_.surfaces) {
-    Vec3 sum = Vec3::Zero();
-    for (int v = surface.first; v < surface.first + surface.count; ++v) sum += move[static_cast<size_t>(v)];
-    mean_move_.push_back(surface.count > 0 ? Vec3(sum / surface.count) : sum);
+    fit_rigid_move(surface);
     for (int v = surface.first; v < surface.first + surface.count; ++v)
-      radius_[static_cast<size_t>(v)] =
-          kRoom * reach_ + kRoomOfMove * (move[static_cast<size_t>(v)] - mean_move_.back()).norm();
+      radius_[static_cast<size_t>(v)] = kRoom * reach_ + kRoomOfMove * own_move(static_cast<size_t>(v)).norm();
   }
   shift_.clear();
   for (const SurfacePair& pair : surfaces_.pairs)
@@ -254,16 +292,24 @@ void ContactCandidates::add_features(const BoxTree::Pair& triangles, const Surfa
   }
 }
 
-/// Boxes of everything that vertices may come to, in frames that move with their surfaces.
-void ContactCandidates::refit() {
+/// Boxes of everything that vertices may come to, in frames that move with their surfaces; for pairs of one surface
+/// also in frames that turn with it.
+///
+/// Of a surface with the turn w, W = [w]x, the vertex x goes to x + s (m + W (x - c) + r), r its own move. In the
+/// coordinates y = (1 + s W)^-1 (x(s) - c - s m) it goes from x - c by s (1 + s W)^-1 r, which is off the straight way
+/// s r by at most |w| |r|. W is antisymmetric, so 1 + s W makes no vector shorter: what is apart in y is as far apart
+/// in x.
+void ContactCandidates::refit(bool turning) {
   vertex_box_.resize(start_.size());
   parallel_for(static_cast<int>(start_.size()), Work::kRow, [&](int i) {
     const auto v = static_cast<size_t>(i), s = static_cast<size_t>(surfaces_.surface_of[v]);
+    const Vec3 move = turning ? own_move(v) : Vec3(move_[v] - mean_move_[s]);
+    const double bent = turning ? turn_[s].norm() * move.norm() : 0;
     Box3f box;
     box.add(start_[v]);
-    box.add(Vec3(start_[v] + move_[v] - mean_move_[s]));
+    box.add(Vec3(start_[v] + move));
     // Two boxes, each larger by half of the distance at which their features begin to feel each other.
-    box.grow(radius_[v] + 0.5 * reach_ + surfaces_.surfaces[s].half_thickness);
+    box.grow(bent + radius_[v] + 0.5 * reach_ + surfaces_.surfaces[s].half_thickness);
     vertex_box_[v] = box;
   });
   triangle_box_.resize(surfaces_.triangles.size());
@@ -303,7 +349,23 @@ void ContactCandidates::search() {
     lost_ = lost_ || !((move_[v] - mean).norm() + radius_[v] <= 2 * kFarthest * extent_);
   }
   if (lost_) return;
-  refit();
+  const bool own =
+      std::any_of(surfaces_.pairs.begin(), surfaces_.pairs.end(), [](const auto& p) { return p.a == p.b; });
+  const bool others =
+      std::any_of(surfaces_.pairs.begin(), surfaces_.pairs.end(), [](const auto& p) { return p.a != p.b; });
+  const bool turning = own && std::any_of(turn_.begin(), turn_.end(), [](const Vec3& w) { return !w.isZero(0); });
+  if (own) {
+    refit(turning);
+    search_pairs(true);
+  }
+  if (others) {
+    if (!own || turning) refit(false);
+    search_pairs(false);
+  }
+}
+
+/// Among pairs of a surface with itself, or of two; with the boxes as they are.
+void ContactCandidates::search_pairs(bool own) {
   struct Part {
     BoxTree::Work work;
     size_t pair;
@@ -312,6 +374,7 @@ void ContactCandidates::search() {
   std::vector<Part> parts;
   for (size_t p = 0; p < surfaces_.pairs.size(); ++p) {
     const SurfacePair& pair = surfaces_.pairs[p];
+    if ((pair.a == pair.b) != own) continue;
     if (!left_out_.empty() && left_out_[static_cast<size_t>(pair.a)] && left_out_[static_cast<size_t>(pair.b)])
       continue;
     const BoxTree& tree = *trees_[static_cast<size_t>(pair.a)];
@@ -323,9 +386,9 @@ void ContactCandidates::search() {
     Box3f shifts;
     shifts.add(Vec3(Vec3::Zero()));
     shifts.add(Vec3(mean_move_[static_cast<size_t>(pair.b)] - mean_move_[static_cast<size_t>(pair.a)]));
-    const double own = surfaces_.surfaces[static_cast<size_t>(pair.a)].half_thickness +
-                       surfaces_.surfaces[static_cast<size_t>(pair.b)].half_thickness;
-    shifts.grow(shift_[p] + std::max(0.0, pair.offset - own));
+    const double thickness = surfaces_.surfaces[static_cast<size_t>(pair.a)].half_thickness +
+                             surfaces_.surfaces[static_cast<size_t>(pair.b)].half_thickness;
+    shifts.grow(shift_[p] + std::max(0.0, pair.offset - thickness));
     for (const BoxTree::Work& w : tree.work_with(*trees_[static_cast<size_t>(pair.b)], shifts))
       parts.push_back({w, p, shifts});
   }

@@ -63,13 +63,16 @@ class ContactCandidates {
     double s = 0;
     std::vector<Vec3> shift;
   };
+  void fit_rigid_move(const ContactSurface& surface);
+  Vec3 own_move(size_t vertex) const;
   Place place_of(const std::vector<Vec3>& x) const;
   double off(const std::vector<Vec3>& x, const Place& place, size_t vertex) const;
   double apart(const Place& place, const SurfacePair& pair) const;
   bool covers(const std::vector<Vec3>& x, const std::vector<Vec3>& move) const;
   bool holds(const std::vector<Vec3>& x, const Place& place) const;
   void search();
-  void refit();
+  void refit(bool turning);
+  void search_pairs(bool own);
   bool may_meet(PairKind kind, const SurfacePair& pair, int pair_number, const Candidate& c) const;
   void add_features(const BoxTree::Pair& triangles, const SurfacePair& pair, int pair_number, const Box3f* shifts,
                     std::vector<Candidate>& points, std::vector<Candidate>& edges) const;
@@ -82,7 +85,7 @@ class ContactCandidates {
   std::vector<double> built_cost_;               // of each tree, when it was first fitted
   std::vector<Vec3> start_, move_;               // per vertex [m]
   double move2_ = 0;                             // sum of squares of the moves
-  std::vector<Vec3> mean_move_;                  // per surface
+  std::vector<Vec3> mean_move_, middle_, turn_;  // per surface: its rigid motion [m], about [m], [rad]
   std::vector<double> radius_;                   // per vertex: how far off it may be [m]
   std::vector<double> shift_;                    // per pair of surfaces: how far apart their shifts may be [m]
   std::vector<Box3f> vertex_box_, triangle_box_;
