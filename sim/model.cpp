@@ -49,9 +49,8 @@ void Pins::drive(double t, Eigen::VectorXd& v) const {
 }
 
 bool Pins::move(double from, double to) const {
-  return std::any_of(model_.pins.begin(), model_.pins.end(), [&](const Pin& pin) {
-    return !pin.motion.still() && pin.motion.pose(from).matrix() != pin.motion.pose(to).matrix();
-  });
+  return std::any_of(model_.pins.begin(), model_.pins.end(),
+                     [&](const Pin& pin) { return pin.motion.moves(from, to); });
 }
 
 double Pins::turn(double from, double to) const {

@@ -48,6 +48,8 @@ Eigen::Vector3d Motion::velocity(double t, const Eigen::Vector3d& at_rest) const
   return translation + omega.cross(euler_xyz(angles) * (at_rest - pivot_));
 }
 
+bool Motion::moves(double from, double to) const { return !still() && pose(from).matrix() != pose(to).matrix(); }
+
 double Motion::turn(double from, double to) const {
   if (keys_.empty()) return 0;
   double sum = 0;

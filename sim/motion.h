@@ -27,6 +27,8 @@ class Motion {
   Eigen::Isometry3d pose(double t) const;
   /// Velocity at time t of a point given where it is at rest [m/s]; at a key frame, that of before it.
   Eigen::Vector3d velocity(double t, const Eigen::Vector3d& at_rest) const;
+  /// Is anything elsewhere at `to` than at `from`?
+  bool moves(double from, double to) const;
   /// An upper bound of the turn between two times: the sum over the axes of how far each angle goes [deg].
   double turn(double from, double to) const;
 

@@ -55,7 +55,7 @@ void Simulation::change_sleepers() {
   if (model_.surfaces) {
     model_.surfaces->leave_out({});
     const double all = model_.surfaces->value(state_.x);
-    model_.surfaces->leave_out(pins_.fixed());
+    if (sleep_->any()) model_.surfaces->leave_out(pins_.fixed());
     resting_contact_ = all - model_.surfaces->value(state_.x);
   }
   arrange();
@@ -74,7 +74,7 @@ void Simulation::keep_asleep(const State& before) {
 
 StepReport Simulation::step(double h) {
   if (sleep_ && sleep_->wake_moved(state_.x, state_.t, h)) change_sleepers();
-  if (sleep_ && sleep_->any() && sleep_->count() == static_cast<int>(model_.bodies.size())) {
+  if (sleep_ && sleep_->all(state_.t, h)) {
     state_.t += h;
     StepReport report;
     report.steps = 1;
@@ -366,8 +366,9 @@ void Simulation::restore(const State& state, std::span<const double> memory) {
   if (sleep_) {
     if (rest.empty()) unfit();
     const double resting = rest[0];
+    const bool slept = sleep_->any();
     rest = sleep_->restore(rest.subspan(1));
-    if (sleep_->any()) change_sleepers();
+    if (slept || sleep_->any()) change_sleepers();
     resting_contact_ = resting;
   }
   if (minimizer_) minimizer_->restore(start_guess_.restore(rest, state.x.size()));

@@ -1,6 +1,7 @@
 #include "sim/sleep.h"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -29,6 +30,27 @@ void join(std::vector<int>& parent, int a, int b) {
   parent[static_cast<size_t>(std::max(a, b))] = std::min(a, b);
 }
 
+/// A collider on its way between two times, seen from itself: what stands still goes from one place to another.
+class Sweep {
+ public:
+  Sweep(const Collider& collider, double from, double to)
+      : shape_(collider.shape), from_(collider.pose(from).inverse()), to_(collider.pose(to).inverse()) {
+    turn_ = (to_.linear() - from_.linear()).norm();
+  }
+  /// A lower bound of its distance, on the way, from all points within `radius` of p. Distances change by no more than
+  /// the way; that of points by what p does and how far they turn around it, along an arc of half a circle at most.
+  double nearest(const Vec3& p, double radius) const {
+    const Vec3 a = from_ * p, b = to_ * p;
+    const double way = std::numbers::pi / 2 * ((b - a).norm() + turn_ * radius);
+    return 0.5 * (signed_distance(shape_, a).distance + signed_distance(shape_, b).distance - way) - radius;
+  }
+
+ private:
+  const ColliderShape& shape_;
+  Eigen::Isometry3d from_, to_;
+  double turn_;
+};
+
 }  // namespace
 
 Sleep::Sleep(const Model& model, double speed)
@@ -40,6 +62,12 @@ Sleep::Sleep(const Model& model, double speed)
       island_(asleep_.size(), -1) {
   for (size_t b = 0; b < model.bodies.size(); ++b)
     body_of_.insert(body_of_.end(), static_cast<size_t>(model.bodies[b].count), static_cast<int>(b));
+  const std::vector<std::uint8_t> held = Pins(model).fixed();
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto first = held.begin() + 3 * model.bodies[b].first;
+    // What is held everywhere is in no balance that could be unstable.
+    has_moved_[b] = std::all_of(first, first + 3 * model.bodies[b].count, [](std::uint8_t h) { return h != 0; });
+  }
   for (const auto& term : model.potentials) {
     const auto k = static_cast<size_t>(term->stencil_size());
     if (term->changing_stencils() || k < 2) continue;
@@ -94,6 +122,11 @@ void Sleep::wake_island(int island) {
   }
 }
 
+bool Sleep::all(double t, double h) const {
+  return any() && sleeping_ == static_cast<int>(asleep_.size()) &&
+         !(model_.surfaces && model_.surfaces->surfaces().colliders_move(t, t + h));
+}
+
 bool Sleep::wake_near() {
   if (!any() || !model_.surfaces) return false;
   const int before = sleeping_;
@@ -112,20 +145,18 @@ bool Sleep::wake_near() {
 bool Sleep::wake_moved(const Eigen::VectorXd& x, double t, double h) {
   if (!any() || !model_.contact) return false;
   const int before = sleeping_;
-  const std::vector<Collider>& colliders = model_.contact->colliders();
-  for (size_t c = 0; c < colliders.size(); ++c) {
-    if (colliders[c].motion.still() || colliders[c].pose(t).matrix() == colliders[c].pose(t + h).matrix()) continue;
+  const double reach = model_.contact->distance();
+  for (const Collider& collider : model_.contact->colliders()) {
+    if (!collider.motion.moves(t, t + h)) continue;
+    const Sweep sweep(collider, t, t + h);
     for (size_t b = 0; b < asleep_.size(); ++b) {
       if (!asleep_[b]) continue;
       const auto points =
           x.segment(3 * model_.bodies[b].first, 3 * model_.bodies[b].count).reshaped(3, model_.bodies[b].count);
-      const auto gap = [&](const Vec3& p) { return model_.contact->at(static_cast<int>(c), t + h, p).distance; };
       const Vec3 lower = points.rowwise().minCoeff(), upper = points.rowwise().maxCoeff();
-      // Distances change by no more than the way between two points.
-      const double reach = model_.contact->distance();
-      if (gap(0.5 * (lower + upper)) > 0.5 * (upper - lower).norm() + reach) continue;
+      if (!(sweep.nearest(0.5 * (lower + upper), 0.5 * (upper - lower).norm()) < reach)) continue;
       for (Eigen::Index i = 0; i < points.cols(); ++i)
-        if (gap(points.col(i)) < reach) {
+        if (sweep.nearest(points.col(i), 0) < reach) {
           wake_island(island_[b]);
           break;
         }

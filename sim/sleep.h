@@ -16,19 +16,23 @@ namespace softreel::sim {
 /// An island wakes as a whole when another body, or a collider that moves, comes within the contact distance: the step
 /// in which that happens is taken again from its start with the island awake, so no impulse is lost.
 ///
-/// Never asleep: what has not moved yet (ten times as fast as `speed`: an unstable balance takes its time), what is
-/// driven by pins, and what loads that change or the wind act on (`Model::restless`).
+/// Never asleep: what has not moved yet (ten times as fast as `speed`: an unstable balance takes its time) unless all
+/// of it is pinned, what is driven by pins, what loads that change or the wind act on (`Model::restless`), and what
+/// touches a mesh collider with a motion.
 class Sleep {
  public:
   /// `speed` [m/s] > 0. `model` must outlive this.
   Sleep(const Model& model, double speed);
 
   bool any() const { return sleeping_ > 0; }
+  /// Can a step from t to t + h be left out? All are asleep, and no mesh collider moves, which may hit one on its way.
+  bool all(double t, double h) const;
   int count() const { return sleeping_; }
   /// Per body of the model.
   const std::vector<std::uint8_t>& asleep() const { return asleep_; }
 
-  /// Before a step from t to t + h: wakes what a collider comes to touch in it. True if there was any. x: 3n [m].
+  /// Before a step from t to t + h: wakes what an analytic collider that moves in it has carried or comes to touch.
+  /// True if there was any. x: 3n [m].
   bool wake_moved(const Eigen::VectorXd& x, double t, double h);
   /// After a step that came to x: wakes what was touched. True if there was any.
   bool wake_touched(const Eigen::VectorXd& x);

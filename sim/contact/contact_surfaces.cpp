@@ -80,9 +80,9 @@ ContactSurfaces::ContactSurfaces(const std::vector<SurfaceInput>& inputs, std::s
     }
 }
 
-bool ContactSurfaces::moving_colliders() const {
+bool ContactSurfaces::colliders_move(double from, double to) const {
   return std::any_of(surfaces.begin(), surfaces.end(),
-                     [](const ContactSurface& s) { return s.collider && !s.motion.still(); });
+                     [&](const ContactSurface& s) { return s.collider && s.motion.moves(from, to); });
 }
 
 ContactSurfaces::ColliderPath ContactSurfaces::collider_path(double t_from, double t_to) const {

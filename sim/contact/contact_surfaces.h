@@ -73,7 +73,8 @@ class ContactSurfaces {
 
   int vertices() const { return static_cast<int>(rest.size()); }
   bool any() const { return !pairs.empty(); }
-  bool moving_colliders() const;
+  /// Is any collider elsewhere at `to` than at `from` [s]?
+  bool colliders_move(double from, double to) const;
 
   /// Positions of all vertices [m]: from x (3n) of the state; colliders between their places at two times.
   struct ColliderPath {

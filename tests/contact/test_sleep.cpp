@@ -148,6 +148,69 @@ TEST_CASE("colliders that come to move wake what they touch, by a box or by a me
   CHECK(carried.state().x.reshaped(3, 27).row(1).minCoeff() > 0.1);
 }
 
+TEST_CASE("what sleeps falls when the collider under it leaves, however fast it is gone") {
+  const Vec3 ways[] = {{0, -0.3, 0}, {3, 0, 0}};
+  for (const Vec3& way : ways) {
+    CAPTURE(way.transpose());
+    TouchingScene scene = boxes(kSpeed, 1);
+    scene.colliders.clear();
+    Collider table;
+    table.shape = BoxShape{Vec3(0.3, 0.05, 0.3)};
+    table.world_from_shape = Eigen::Translation3d(0, -0.05, 0);
+    table.friction = 0.5;
+    table.motion =
+        Motion({{0, {0, 0, 0}, {0, 0, 0}}, {3, {0, 0, 0}, {0, 0, 0}}, {3 + kStep, way, {0, 0, 0}}}, {0, 0, 0});
+    scene.colliders.push_back(table);
+    Simulation s = scene.start();
+    tests::run_without_crossing(s, kStep, 3 * kTwoSeconds / 2);
+    REQUIRE(s.asleep() == 2);
+    const double height = positions_of(s, 0).reshaped(3, 27).row(1).minCoeff();
+    tests::run_without_crossing(s, kStep, 12);
+    CHECK(s.asleep() == 0);
+    CHECK(height - positions_of(s, 0).reshaped(3, 27).row(1).minCoeff() > 0.1);  // of free fall in 0.2 s: 0.2 m
+  }
+}
+
+TEST_CASE("a mesh collider that comes when all are asleep wakes what it hits") {
+  TouchingScene scene = boxes(kSpeed, 1);
+  const Motion press({{0, {0, 0, 0}, {0, 0, 0}}, {3, {0, 0, 0}, {0, 0, 0}}, {3.5, {0, -0.25, 0}, {0, 0, 0}}},
+                     {0, 0, 0});
+  scene.add_mesh_collider("press", tests::moved(grid_sheet(1, 1, 2, 2), Vec3(0, 0.55, 0)), 0.5, press);
+  Simulation s = scene.start();
+  tests::run_without_crossing(s, kStep, 3 * kTwoSeconds / 2);
+  REQUIRE(s.asleep() == 2);
+  tests::run_without_crossing(s, kStep, 30);
+  CHECK(s.asleep() == 0);
+  CHECK(positions_of(s, 1).reshaped(3, 27).row(1).maxCoeff() < 0.3);
+}
+
+TEST_CASE("what lies on a body that is pinned everywhere falls asleep") {
+  TouchingScene scene = boxes(kSpeed, 1);
+  const BodyRange shelf =
+      scene.add_solid("shelf", moved(block_of_tets(Vec3::Constant(0.4), 1, 1, 1), Vec3(0, -0.2, 0)), kSoft, 0.5);
+  Pin pin;
+  for (int v = shelf.first; v < shelf.first + shelf.count; ++v) pin.vertices.push_back(v);
+  scene.builder.add_pin(pin);
+  scene.colliders.clear();
+  Simulation s = scene.start();
+  tests::run_without_crossing(s, kStep, 3 * kTwoSeconds / 2);
+  CHECK(s.asleep() == 3);
+}
+
+TEST_CASE("a state from before anything slept can be taken up again by a run that sleeps") {
+  Simulation s = boxes(kSpeed, 1).start();
+  for (int i = 0; i < 10; ++i) REQUIRE(s.step(kStep).converged);
+  const State state = s.state();
+  const std::vector<double> memory = s.memory();
+  for (int i = 0; i < 3 * kTwoSeconds / 2; ++i) REQUIRE(s.step(kStep).converged);
+  const Eigen::VectorXd end = s.state().x;
+  REQUIRE(s.asleep() == 2);
+  s.restore(state, memory);
+  CHECK(s.asleep() == 0);
+  for (int i = 0; i < 3 * kTwoSeconds / 2; ++i) REQUIRE(s.step(kStep).converged);
+  CHECK(s.state().x == end);
+}
+
 TEST_CASE("what has not moved yet, what is driven and what a changing load acts on stays awake") {
   TouchingScene scene;
   scene.settings.sleep_speed = kSpeed;
