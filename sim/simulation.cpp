@@ -230,7 +230,7 @@ void Simulation::implicit_step(double h, StepReport& report) {
   const double progress = model_.surfaces ? start_of_solve(end, y, report) : 1;
   // Two places to start from: where the vertices are and where they are heading. The lower of the two is nearer: in
   // free motion the second, before an impact the first. What is driven through contact has to come along.
-  if ((model_.contact || (model_.surfaces && !driven_)) && !still) {
+  if ((model_.contact || model_.surfaces) && !driven_ && !still) {
     Eigen::VectorXd here = state_.x;
     place(here);
     if (phi_->value(here, report) < phi_->value(y, report)) y.swap(here);

@@ -96,7 +96,7 @@ class Simulation {
   std::unique_ptr<IncrementalPotential> phi_;  // of implicit methods
   std::unique_ptr<Minimizer> minimizer_;
   std::unique_ptr<MassMatrix> mass_;  // of explicit methods
-  bool driven_ = false;               ///< pins or colliders that touch move in this step
+  bool driven_ = false;               ///< with contact between surfaces: pins or colliders of it move in this step
   Eigen::VectorXd predicted_, guess_;
   StartGuess start_guess_;  // of implicit methods
 };
