@@ -143,7 +143,7 @@ const std::vector<Feature> kFeatures = {
      .against = "pins",
      .overrides = {"cloth.sheet.pins=[{vertices=[0],motion=[{t=0},{t=0.1,translate=[0,0.01,0]}]}]"}},
     {.name = "contact with colliders",
-     .code = {"sim/collider", "sim/collider_contact"},
+     .code = {"sim/collider", "sim/collider_contact", "sim/collider_core"},
      .overrides = {"cloth.sheet.translate=[0,0.01,0]", "contact.sleep_speed=0"},
      .scene = "[[collider]]\nfriction = 0\n",
      .stats = {"simulate_seconds.contact"}},

@@ -38,8 +38,8 @@ void walk(KeyVisitor& v, Contact& c) {
   v.key({"distance", kPhysics, "m", kLength, "at which the penalty begins"}, &c.distance);
   v.key({"slip_speed", kPhysics, "m/s", above(0, 1e3), "below which friction holds"}, &c.slip_speed);
   v.key({"sleep_speed", kPhysics, "m/s", at_least(0, 1e3),
-         "bodies that touch something and stay slower for 0.5 s are left out until they are touched; left out, "
-         "slip_speed/2; 0: never"},
+         "bodies that stay slower for 0.5 s, with all that they touch, are left out until something touches them; left "
+         "out, slip_speed/2; 0: never"},
         &c.sleep_speed);
   v.key({"stiffness", kPhysics, "N/m^2", kStiffness,
          "of the penalty; left out, 100 mass / (step^2 distance) of each vertex"},

@@ -1,8 +1,10 @@
 #include "sim/collider_contact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "sim/parallel.h"
 
@@ -18,6 +20,8 @@ ColliderContact::ColliderContact(const Eigen::VectorXd& masses, std::vector<Coll
       posed_(colliders_.size()) {
   std::iota(vertices_.begin(), vertices_.end(), 0);
   stiffness_.setConstant(settings_.stiffness);
+  for (size_t c = 0; c < colliders_.size(); ++c)
+    if (const auto core = core_of(colliders_[c].shape, settings.distance)) cores_.push_back({c, *core});
   place(0);
 }
 
@@ -73,6 +77,52 @@ void ColliderContact::element_hessians(const Eigen::VectorXd& x, double scale, D
       block += scale * 2 * stiffness_(i) * s * normal * normal.transpose();
     });
   }
+}
+
+/// The least share that any vertex may go; way(vertex, collider) gives its two ends in the collider's own frame.
+template <class Way>
+double ColliderContact::shortest(const Way& way, std::span<const std::uint8_t> held) const {
+  std::vector<double> shares(vertices_.size(), 1);
+  parallel_for(static_cast<int>(vertices_.size()), Work::kRow, [&](int i) {
+    const auto k = static_cast<size_t>(i);
+    if (held[3 * k] || held[3 * k + 1] || held[3 * k + 2]) return;
+    for (const NumberedCore& c : cores_) {
+      const auto [a, b] = way(i, c.collider);
+      shares[k] = std::min(shares[k], free_share(c.core, a, b));
+    }
+  });
+  const auto least = std::min_element(shares.begin(), shares.end());
+  if (least == shares.end() || *least == 1) return 1;
+  blocking_ = static_cast<int>(least - shares.begin());
+  return *least;
+}
+
+double ColliderContact::max_step(const Eigen::VectorXd& x, const Eigen::VectorXd& dx,
+                                 std::span<const std::uint8_t> held) const {
+  if (!has_cores()) return 1;
+  return shortest(
+      [&](int i, size_t c) {
+        const Eigen::Vector3d from = x.segment<3>(3 * i), move = dx.segment<3>(3 * i);
+        const Eigen::Vector3d a = posed_[c].shape_from_world * from;
+        return std::pair<Eigen::Vector3d, Eigen::Vector3d>(a, a + posed_[c].shape_from_world.linear() * move);
+      },
+      held);
+}
+
+bool ColliderContact::way_is_free(const Eigen::VectorXd& from, double t_from, const Eigen::VectorXd& to, double t_to,
+                                  std::span<const std::uint8_t> held) const {
+  if (!has_cores()) return true;
+  std::vector<Eigen::Isometry3d> before, after;
+  for (const Collider& c : colliders_) {
+    before.push_back(c.pose(t_from).inverse());
+    after.push_back(c.pose(t_to).inverse());
+  }
+  return shortest(
+             [&](int i, size_t c) {
+               return std::pair<Eigen::Vector3d, Eigen::Vector3d>(before[c] * from.segment<3>(3 * i),
+                                                                  after[c] * to.segment<3>(3 * i));
+             },
+             held) == 1;
 }
 
 SignedDistance ColliderContact::at(int collider, double t, const Eigen::Vector3d& point) const {

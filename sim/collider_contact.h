@@ -1,10 +1,13 @@
 #pragma once
 // Penalty contact and Coulomb friction of vertices with rigid colliders.
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/collider.h"
+#include "sim/collider_core.h"
 #include "sim/energy_term.h"
 
 namespace softreel::sim {
@@ -47,6 +50,19 @@ class ColliderContact : public EnergyTerm {
   void element_hessians(const Eigen::VectorXd& x, double scale, Definiteness, StencilRange range,
                         double* blocks) const override;
 
+  /// Is there a collider that could be passed through? If not, the three below have nothing to look at.
+  bool has_cores() const { return !cores_.empty(); }
+  /// The share, in [0, 1], of the move dx on which no vertex passes through a collider (collider_core.h), colliders
+  /// being where they are when forces are taken. Left out: vertices of which a coordinate is held (3n flags), which go
+  /// where a script takes them.
+  double max_step(const Eigen::VectorXd& x, const Eigen::VectorXd& dx, std::span<const std::uint8_t> held) const;
+  /// Does the straight way between two states pass through none, as seen from each collider on its own way? Else
+  /// `blocking` tells.
+  bool way_is_free(const Eigen::VectorXd& from, double t_from, const Eigen::VectorXd& to, double t_to,
+                   std::span<const std::uint8_t> held) const;
+  /// The vertex that was stopped last; -1: none was.
+  int blocking() const { return blocking_; }
+
   const std::vector<Collider>& colliders() const { return colliders_; }
   double distance() const { return settings_.distance; }
   double stiffness(int vertex) const { return stiffness_(vertex); }
@@ -61,13 +77,21 @@ class ColliderContact : public EnergyTerm {
   void place(double t);
   template <class Visit>
   void visit(const Eigen::Vector3d& point, const Visit& each) const;
+  template <class Way>
+  double shortest(const Way& way, std::span<const std::uint8_t> held) const;
 
   Eigen::VectorXd masses_;
   std::vector<Collider> colliders_;
   ContactSettings settings_;
   std::vector<int> vertices_;
   Eigen::VectorXd stiffness_;  // [N/m^2]
-  std::vector<Posed> posed_;   // at the end of the step
+  std::vector<Posed> posed_;   // when forces are taken
+  struct NumberedCore {
+    size_t collider;
+    ColliderCore core;
+  };
+  std::vector<NumberedCore> cores_;
+  mutable int blocking_ = -1;
 };
 
 /// Smoothed Coulomb friction as a dissipation potential, D(v) = sum mu lambda f(|T (v - v_collider)|) (Li et al. 2020,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/collider_contact.h"
 #include "sim/contact/surface_contact.h"
 #include "sim/parallel.h"
 #include "sim/stiffness_scale.h"
@@ -112,7 +113,6 @@ void IncrementalPotential::assemble(const Eigen::VectorXd& y, Definiteness defin
 
 void IncrementalPotential::drive_to(const Eigen::VectorXd& target, double progress) {
   progress_ = progress;
-  short_steps_ = 0;
   if (progress < 1) target_ = target;
   if (model_.surfaces) model_.surfaces->set_progress(progress);
 }
@@ -169,9 +169,13 @@ void IncrementalPotential::soften() {
 }
 
 double IncrementalPotential::max_step(const Eigen::VectorXd& y, const Eigen::VectorXd& dy, StepReport& report) {
-  if (!model_.surfaces) return 1;  // the only one that limits steps
+  const bool passable = model_.contact && model_.contact->has_cores();
+  if (!passable && !model_.surfaces) return 1;
   const Stopwatch watch(report.seconds.contact);
-  const double step = model_.surfaces->max_step(y, dy);
+  const double of_colliders = passable ? model_.contact->max_step(y, dy, pins_.fixed()) : 1;
+  const double of_surfaces = model_.surfaces ? model_.surfaces->max_step(y, dy) : 1;
+  collider_blocks_ = of_colliders < of_surfaces;
+  const double step = std::min(of_colliders, of_surfaces);
   short_steps_ = step < kShortStep ? short_steps_ + 1 : 0;
   return step;
 }

@@ -19,7 +19,10 @@ class IncrementalPotential {
   IncrementalPotential(const Model& model, const Pins& pins, TermList terms);
 
   /// Before each solve.
-  void begin() { changing_.begin(); }
+  void begin() {
+    changing_.begin();
+    short_steps_ = 0;
+  }
   Stage& stage() { return stage_; }
   const Stage& stage() const { return stage_; }
   MassMatrix& mass() { return mass_; }
@@ -56,6 +59,8 @@ class IncrementalPotential {
   void driven_force(const Eigen::VectorXd& y, Eigen::VectorXd& force, StepReport& report);
   /// Have many steps in a row been cut to next to nothing?
   bool blocked() const { return short_steps_ >= kMostShortSteps; }
+  /// Was the last step that was cut, cut by an analytic collider?
+  bool collider_blocks() const { return collider_blocks_; }
 
   /// 3n flags of what pins hold.
   const std::vector<std::uint8_t>& held() const { return pins_.fixed(); }
@@ -82,6 +87,7 @@ class IncrementalPotential {
   static constexpr int kMostShortSteps = 3;
   static constexpr double kShortStep = 0.05;
   int short_steps_ = 0;
+  bool collider_blocks_ = false;
 };
 
 }  // namespace softreel::sim

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/collider_contact.h"
 #include "sim/contact/surface_contact.h"
 #include "sim/stopwatch.h"
 
@@ -154,6 +155,14 @@ StepReport Simulation::attempt_once(double h, const State& before) {
       report.reason = model_.surfaces->blocking() + " would pass through each other";
     }
   }
+  const bool at_rest = implicit() && phi_->stage().inertia == 0;  // there is no way in between
+  if (report.converged && model_.contact && !at_rest) {
+    const Stopwatch watch(report.seconds.contact);
+    if (!model_.contact->way_is_free(before.x, before.t, state_.x, state_.t, pins_.fixed())) {
+      report.converged = false;
+      report.reason = at_collider() + " would pass through a collider";
+    }
+  }
   if (report.converged) {
     const double farthest = (state_.x - before.x).cwiseAbs().maxCoeff();
     if (!state_.x.allFinite() || !state_.v.allFinite() || !(farthest < kRunaway * extent_)) {
@@ -227,7 +236,7 @@ void Simulation::implicit_step(double h, StepReport& report) {
   Eigen::VectorXd y = predicted_;
   place(y);
   const Eigen::VectorXd target = y;
-  const double progress = model_.surfaces ? start_of_solve(end, y, report) : 1;
+  const double progress = start_of_solve(end, target, y, report);
   // Two places to start from: where the vertices are and where they are heading. The lower of the two is nearer: in
   // free motion the second, before an impact the first. What is driven through contact has to come along.
   if ((model_.contact || model_.surfaces) && !driven_ && !still) {
@@ -240,9 +249,9 @@ void Simulation::implicit_step(double h, StepReport& report) {
   if (guessed) {
     start_guess_.guess(stage, h, guess_);
     place(guess_);
-    if (model_.surfaces) {
+    if (model_.surfaces || model_.contact) {
       const Stopwatch watch(report.seconds.contact);
-      guessed = progress == 1 && model_.surfaces->max_step(state_.x, guess_ - state_.x) == 1;
+      guessed = progress == 1 && free_share(guess_ - state_.x) == 1;
     }
   }
   solve(target, progress, guessed ? &guess_ : nullptr, y, report);
@@ -255,33 +264,61 @@ void Simulation::implicit_step(double h, StepReport& report) {
   }
 }
 
-/// With contact between surfaces a solve may only begin where nothing was jumped over on the way there: cuts the way to
-/// y. Returns the share of it that is left; `end` of the step [s].
-double Simulation::start_of_solve(double end, Eigen::VectorXd& y, StepReport& report) {
+/// The share, in [0, 1], of a move from the state on which nothing passes through anything.
+double Simulation::free_share(const Eigen::VectorXd& move) const {
+  const double share = model_.contact ? model_.contact->max_step(state_.x, move, pins_.fixed()) : 1;
+  return model_.surfaces ? std::min(share, model_.surfaces->max_step(state_.x, move)) : share;
+}
+
+/// A solve may only begin where nothing was jumped over on the way there: cuts the way to y. What is held goes to its
+/// end (`target`) nevertheless, unless contact between surfaces has to let it: returns the share of its way that it has
+/// gone. `end` of the step [s].
+double Simulation::start_of_solve(double end, const Eigen::VectorXd& target, Eigen::VectorXd& y, StepReport& report) {
+  const bool passable = model_.contact && model_.contact->has_cores();
+  if (!passable && !model_.surfaces) return 1;
   const Stopwatch watch(report.seconds.contact);
-  SurfaceContact& surfaces = *model_.surfaces;
-  driven_ = surfaces.colliders_move() || pins_.move(state_.t, end);
-  surfaces.set_progress(0);
-  const double share = surfaces.max_step(state_.x, y - state_.x);
+  SurfaceContact* surfaces = model_.surfaces;
+  if (surfaces) {
+    driven_ = surfaces->colliders_move() || pins_.move(state_.t, end);
+    surfaces->set_progress(0);
+  }
+  const double share = free_share(y - state_.x);
   if (share < 1) y = state_.x + share * (y - state_.x);
+  if (share < 1 && !driven_)
+    for (Eigen::Index i = 0; i < y.size(); ++i)
+      if (pins_.fixed()[static_cast<size_t>(i)]) y(i) = target(i);
   const double progress = driven_ ? share : 1;
-  surfaces.set_progress(progress);
+  if (surfaces) surfaces->set_progress(progress);
   return progress;
+}
+
+/// "'a'": the body that an analytic collider stopped last.
+std::string Simulation::at_collider() const {
+  const int vertex = model_.contact->blocking();
+  for (const BodyRange& body : model_.bodies)
+    if (vertex >= body.first && vertex < body.first + body.count) return "'" + body.name + "'";
+  return "";
 }
 
 /// Goes from y to the minimum. Contact that gives way too far is stiffened, and the solve taken again from its start.
 void Simulation::solve(const Eigen::VectorXd& target, double progress, const Eigen::VectorXd* guess, Eigen::VectorXd& y,
                        StepReport& report) {
   SurfaceContact* surfaces = model_.surfaces;
-  if (!surfaces) return minimizer_->minimize(y, guess, report);
+  if (!surfaces) {
+    minimizer_->minimize(y, guess, report);
+    if (!report.converged && phi_->blocked())
+      report.reason += ": " + at_collider() + " is too fast for a collider to stop it";
+    return;
+  }
   const Eigen::VectorXd start = y;
   while (true) {
     y = start;
     phi_->drive_to(target, progress);
     minimizer_->minimize(y, guess, report);
     guess = nullptr;  // it was one for softer contact
-    const bool stiffened =
-        report.converged ? surfaces->stiffen_near(y) : phi_->blocked() && surfaces->stiffen_blocking();
+    const bool stiffened = report.converged
+                               ? surfaces->stiffen_near(y)
+                               : phi_->blocked() && !phi_->collider_blocks() && surfaces->stiffen_blocking();
     if (!stiffened) break;
     ++report.stiffenings;
   }
@@ -290,7 +327,8 @@ void Simulation::solve(const Eigen::VectorXd& target, double progress, const Eig
     report.reason = surfaces->blocking() + " are pressed together harder than contact can hold" +
                     (driven_ ? ": what is driven (pins, colliders with a motion) leaves them no room" : " in one step");
   else if (phi_->blocked())
-    report.reason += ": " + surfaces->blocking();
+    report.reason += ": " + (phi_->collider_blocks() ? at_collider() + " is too fast for a collider to stop it"
+                                                     : surfaces->blocking());
 }
 
 void Simulation::explicit_step(double h, StepReport& report) {

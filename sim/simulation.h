@@ -77,7 +77,9 @@ class Simulation {
   Acceleration acceleration(double h, StepReport& report);
   void explicit_step(double h, StepReport& report);
   void implicit_step(double h, StepReport& report);
-  double start_of_solve(double end, Eigen::VectorXd& y, StepReport& report);
+  double free_share(const Eigen::VectorXd& move) const;
+  double start_of_solve(double end, const Eigen::VectorXd& target, Eigen::VectorXd& y, StepReport& report);
+  std::string at_collider() const;
   void solve(const Eigen::VectorXd& target, double progress, const Eigen::VectorXd* guess, Eigen::VectorXd& y,
              StepReport& report);
   void forget();
