@@ -7,7 +7,7 @@ namespace softreel::sim {
 namespace {
 
 constexpr double kDistances = 20, kOfDeepest = 0.9;  // how deep a core lies
-constexpr double kKept = 0.1;   // of the distance from the core, at most of its depth
+constexpr double kKept = 0.1;                        // of the distance from the core, at most of its depth
 // Grazing ways take ever shorter pieces; after so many the rest is left to the next step.
 constexpr int kMostPieces = 256;
 

@@ -13,9 +13,9 @@ struct ColliderCore {
   double depth = 0;  ///< [m]
 };
 
-/// 20 contact distances deep, or 0.9 of the deepest point's depth where that is less. Contact that goes by mass and step
-/// (collider_contact.h) stops 44,100 d_hat/h there: a vertex of 5300 m/s in a step of 1/60 s at a distance of 2 mm.
-/// None for a plane, which has no other side, and for a mesh. `distance`: d_hat [m] > 0.
+/// 20 contact distances deep, or 0.9 of the deepest point's depth where that is less. Contact that goes by mass and
+/// step (collider_contact.h) stops 44,100 d_hat/h there: a vertex of 5300 m/s in a step of 1/60 s at a distance of 2
+/// mm. None for a plane, which has no other side, and for a mesh. `distance`: d_hat [m] > 0.
 std::optional<ColliderCore> core_of(const ColliderShape& shape, double distance);
 
 /// A lower bound, in [0, 1], of how far a point can go straight from `a` to `b` (in the collider's own frame) before it

@@ -40,11 +40,11 @@ Simulation start(const Throw& t, const Motion& motion = {}) {
   Collider wall;
   wall.shape = t.shape.shape;
   wall.motion = motion;
-  const BodyRange body = scene.builder.add_solid(
-      "cube",
-      moved(block_of_tets(Vec3::Constant(0.2), 3, 3, 3), Vec3(0.01, t.shape.top + 0.15 + 1.3 * t.speed * kStep, 0.013),
-            Vec3(10, 20, 5)),
-      kSoft);
+  const BodyRange body =
+      scene.builder.add_solid("cube",
+                              moved(block_of_tets(Vec3::Constant(0.2), 3, 3, 3),
+                                    Vec3(0.01, t.shape.top + 0.15 + 1.3 * t.speed * kStep, 0.013), Vec3(10, 20, 5)),
+                              kSoft);
   scene.builder.set_velocity(body, Vec3(0, -t.speed, 0), Vec3::Zero());
   return Simulation(scene.builder.finish(Vec3::Zero(), {}, {wall}, scene.contact), scene.settings);
 }
