@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
+#include <span>
 
+#include "app/way_apart.h"
 #include "app/world.h"
 #include "assets/crossing_pairs.h"
 #include "assets/error.h"
@@ -63,18 +66,33 @@ class Separation {
     return nullptr;
   }
 
-  /// The shortest way along an axis that takes `body` clear of surface `other`, with `gap` between their boxes.
+  /// The shortest way that is found to take surface `own` clear of `other`: along the normals of triangles that cross,
+  /// the line between their middles, or an axis.
   Vec3 way_out(int own, int other, double gap) const {
-    const Eigen::AlignedBox3d a = box(own), b = box(other);
-    Vec3 best = Vec3::Constant(1e300);
-    for (int axis = 0; axis < 3; ++axis)
-      for (const int side : {1, -1}) {
-        const double length = side > 0 ? b.max()(axis) + gap - a.min()(axis) : a.max()(axis) + gap - b.min()(axis);
-        // Upwards among equals: what lies below is often the ground.
-        const double price = length * (axis == 1 && side > 0 ? 1 : 1.001);
-        if (length > 0 && price < best.norm()) best = side * length * Vec3::Unit(axis);
+    const std::vector<Vec3> x = positions_of(surfaces_, model_.x0, 0);
+    const auto points = [&](int s) {
+      const sim::ContactSurface& surface = surfaces_.surfaces[static_cast<size_t>(s)];
+      return std::span(x).subspan(static_cast<size_t>(surface.first), static_cast<size_t>(surface.count));
+    };
+    const auto middle = [](std::span<const Vec3> of) {
+      return Vec3(std::accumulate(of.begin(), of.end(), Vec3(Vec3::Zero())) / static_cast<double>(of.size()));
+    };
+    std::vector<Vec3> directions{middle(points(own)) - middle(points(other))};
+    const auto belongs = [&](int triangle, int s) {
+      const sim::ContactSurface& surface = surfaces_.surfaces[static_cast<size_t>(s)];
+      return triangle >= surface.first_triangle && triangle < surface.first_triangle + surface.triangle_count;
+    };
+    const auto wanted = [&](int t1, int t2) {
+      return (belongs(t1, own) && belongs(t2, other)) || (belongs(t1, other) && belongs(t2, own));
+    };
+    constexpr size_t kMost = 100;  // enough to know how the two lie
+    for (const auto& [t1, t2] : assets::crossing_pairs({x, surfaces_.triangles}, kMost, wanted))
+      for (const int t : {t1, t2}) {
+        const sim::Triangle& v = surfaces_.triangles[static_cast<size_t>(t)];
+        const auto corner = [&](size_t i) { return x[static_cast<size_t>(v[i])]; };
+        directions.push_back((corner(1) - corner(0)).cross(corner(2) - corner(0)));
       }
-    return best;
+    return way_apart(points(own), points(other), directions, gap);
   }
 
   void move(const sim::BodyRange& body, const Vec3& by) {
@@ -82,14 +100,6 @@ class Separation {
   }
 
  private:
-  Eigen::AlignedBox3d box(int s) const {
-    const std::vector<Vec3> x = positions_of(surfaces_, model_.x0, 0);
-    const sim::ContactSurface& surface = surfaces_.surfaces[static_cast<size_t>(s)];
-    Eigen::AlignedBox3d result;
-    for (int v = surface.first; v < surface.first + surface.count; ++v) result.extend(x[static_cast<size_t>(v)]);
-    return result;
-  }
-
   const sim::ContactSurfaces& surfaces_;
   sim::Model& model_;
 };

@@ -1,4 +1,8 @@
 // Contact between surfaces as a user meets it: keys, refusals, figures.
+#include <algorithm>
+#include <cmath>
+
+#include "assets/surface_import.h"
 #include "tests/app/clip.h"
 
 using namespace softreel;
@@ -56,6 +60,23 @@ TEST_CASE("bodies that overlap in the first frame are refused with their names, 
   const test::RunResult pinned = run(folder, two_blocks(-0.07, "[contact]\nresolve_overlap = true\n"),
                                      {"--set", "soft.*.pins=[{ box = [[-9, -9, -9], [9, 9, 9]] }]"});
   CHECK(pinned.code == 2);
+}
+
+TEST_CASE("bodies that overlap aslant are moved apart along the faces that overlap") {
+  // Both turned by 45 degrees, 2 cm into each other along the diagonal; weightless, so they stay where they are put.
+  const std::string text =
+      "gravity = [0, 0, 0]\n[time]\nduration = 0.2\nfps = 10\n[contact]\nresolve_overlap = true\n"
+      "[[soft]]\nname = \"a\"\nblock = { size = [0.4, 0.4, 0.4], cells = [1, 1, 1] }\nrotate = [0, 0, 45]\n"
+      "[[soft]]\nname = \"b\"\nblock = { size = [0.4, 0.4, 0.4], cells = [1, 1, 1] }\nrotate = [0, 0, 45]\n"
+      "translate = [0.2687, 0.2687, 0.013]\n";
+  test::TempFolder folder;
+  const test::RunResult r = run(folder, text, {"--export", "ply"});
+  REQUIRE(r.code == 0);
+  double leftmost = 1;
+  for (const sim::Vec3& p : assets::import_surface(folder / "out" / "export" / "b_0001.ply").welded.vertices)
+    leftmost = std::min(leftmost, p.x());
+  // 0.38 m apart, and then 0.4 m and the contact distance: 2.2 cm along the diagonal. Along an axis it would be 30 cm.
+  CHECK(leftmost == doctest::Approx(0.2687 + 0.022 / std::sqrt(2.0) - 0.2 * std::sqrt(2.0)).epsilon(1e-3));
 }
 
 TEST_CASE("a mesh collider carries what falls on it, and is said to be missing where it is") {
