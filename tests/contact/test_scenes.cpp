@@ -246,7 +246,7 @@ TEST_CASE("a ball at 10, 100 and 1000 m/s never crosses a sheet of tetrahedra or
         CHECK(tests::crossing_count(s) == 0);
         if (!r.converged) {
           CHECK(!r.reason.empty());
-          MESSAGE((cloth ? "cloth, " : "tetrahedra, "), speed, " m/s, step ", i + 1, ": ", r.reason);
+          MESSAGE(std::string(cloth ? "cloth, " : "tetrahedra, "), speed, " m/s, step ", i + 1, ": ", r.reason);
           break;
         }
       }
