@@ -5,11 +5,16 @@
 #include <numeric>
 
 #include "assets/exact_predicates.h"
+#include "sim/parallel.h"
 
 namespace softreel::assets {
 namespace {
 
 constexpr int kLeafSize = 4;
+constexpr std::size_t kParts = 128;  // of a search, about
+
+using Pair = std::pair<int, int>;
+using Wanted = std::function<bool(int, int)>;
 
 /// Boxes over triangles, split at the median of the longest axis.
 class BoxTree {
@@ -25,13 +30,19 @@ class BoxTree {
     if (!order_.empty()) build(0, static_cast<int>(order_.size()));
   }
 
-  std::vector<std::pair<int, int>> self_crossings(std::size_t limit, const std::function<bool(int, int)>& wanted) {
-    pairs_.clear();
-    limit_ = limit;
-    wanted_ = &wanted;
-    if (!nodes_.empty()) inside(0);
-    std::sort(pairs_.begin(), pairs_.end());
-    return std::move(pairs_);
+  std::vector<Pair> self_crossings(std::size_t limit, const Wanted& wanted) const {
+    if (nodes_.empty()) return {};
+    const std::vector<Work> parts = split_up();
+    std::vector<std::vector<Pair>> found(parts.size());
+    sim::parallel_tasks(static_cast<int>(parts.size()), [&](int k) {
+      const auto part = static_cast<std::size_t>(k);
+      search(parts[part], {limit, wanted, found[part]});
+    });
+    std::vector<Pair> pairs;
+    for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+    if (pairs.size() > limit) pairs.resize(limit);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
   }
 
  private:
@@ -70,54 +81,79 @@ class BoxTree {
     return boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(place)])];
   }
 
-  void test(int place_a, int place_b) {
+  /// Two nodes whose triangles are to be looked at together; a node with itself.
+  struct Work {
+    int a, b;
+  };
+  struct Search {
+    std::size_t limit;
+    const Wanted& wanted;
+    std::vector<Pair>& pairs;
+
+    bool full() const { return pairs.size() >= limit; }
+  };
+
+  /// Appends what takes the place of w. False: it cannot be divided.
+  bool divide(const Work& w, std::vector<Work>& next) const {
+    const Node &a = nodes_[static_cast<std::size_t>(w.a)], &b = nodes_[static_cast<std::size_t>(w.b)];
+    if (w.a == w.b) {
+      if (a.left < 0) return false;
+      next.insert(next.end(), {{a.left, a.left}, {a.right, a.right}, {a.left, a.right}});
+      return true;
+    }
+    if (!a.box.intersects(b.box)) return true;
+    if (a.left < 0 && b.left < 0) return false;
+    if (b.left < 0 || (a.left >= 0 && a.count >= b.count))
+      next.insert(next.end(), {{a.left, w.b}, {a.right, w.b}});
+    else
+      next.insert(next.end(), {{w.a, b.left}, {w.a, b.right}});
+    return true;
+  }
+
+  /// Parts of the search, the same for any number of threads.
+  std::vector<Work> split_up() const {
+    std::vector<Work> parts{{0, 0}};
+    for (bool any = true; any && parts.size() < kParts;) {
+      any = false;
+      std::vector<Work> next;
+      for (const Work& w : parts) {
+        if (divide(w, next))
+          any = true;
+        else
+          next.push_back(w);
+      }
+      parts.swap(next);
+    }
+    return parts;
+  }
+
+  void search(const Work& part, const Search& into) const {
+    std::vector<Work> stack{part};
+    while (!stack.empty() && !into.full()) {
+      const Work w = stack.back();
+      stack.pop_back();
+      if (divide(w, stack)) continue;
+      const Node &a = nodes_[static_cast<std::size_t>(w.a)], &b = nodes_[static_cast<std::size_t>(w.b)];
+      for (int i = 0; i < a.count; ++i)
+        for (int j = w.a == w.b ? i + 1 : 0; j < b.count && !into.full(); ++j) test(a.first + i, b.first + j, into);
+    }
+  }
+
+  void test(int place_a, int place_b, const Search& into) const {
     if (!box_of(place_a).intersects(box_of(place_b))) return;
     const int a = order_[static_cast<std::size_t>(place_a)], b = order_[static_cast<std::size_t>(place_b)];
-    if (*wanted_ && !(*wanted_)(a, b)) return;
+    if (into.wanted && !into.wanted(a, b)) return;
     sim::Triangle s = mesh_.triangles[static_cast<std::size_t>(a)], t = mesh_.triangles[static_cast<std::size_t>(b)];
     if (!triangles_cross(mesh_.vertices, s, t)) return;
     std::sort(s.begin(), s.end());
     std::sort(t.begin(), t.end());
-    if (s != t) pairs_.emplace_back(std::min(a, b), std::max(a, b));
-  }
-
-  void inside(int index) {
-    const Node& node = nodes_[static_cast<std::size_t>(index)];
-    if (pairs_.size() >= limit_) return;
-    if (node.left >= 0) {
-      inside(node.left);
-      inside(node.right);
-      between(node.left, node.right);
-      return;
-    }
-    for (int i = 0; i < node.count && pairs_.size() < limit_; ++i) {
-      for (int j = i + 1; j < node.count && pairs_.size() < limit_; ++j) test(node.first + i, node.first + j);
-    }
-  }
-
-  void between(int ia, int ib) {
-    const Node &a = nodes_[static_cast<std::size_t>(ia)], &b = nodes_[static_cast<std::size_t>(ib)];
-    if (pairs_.size() >= limit_ || !a.box.intersects(b.box)) return;
-    if (a.left < 0 && b.left < 0) {
-      for (int i = 0; i < a.count && pairs_.size() < limit_; ++i) {
-        for (int j = 0; j < b.count && pairs_.size() < limit_; ++j) test(a.first + i, b.first + j);
-      }
-    } else if (b.left < 0 || (a.left >= 0 && a.count >= b.count)) {
-      between(a.left, ib);
-      between(a.right, ib);
-    } else {
-      between(ia, b.left);
-      between(ia, b.right);
-    }
+    if (s != t) into.pairs.emplace_back(std::min(a, b), std::max(a, b));
   }
 
   const sim::TriangleMesh& mesh_;
   std::vector<Eigen::AlignedBox3d> boxes_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
-  std::vector<std::pair<int, int>> pairs_;
-  std::size_t limit_ = 0;
-  const std::function<bool(int, int)>* wanted_ = nullptr;
 };
 
 }  // namespace

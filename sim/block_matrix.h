@@ -19,6 +19,9 @@ struct BlockMatrix {
     return Eigen::Map<const Eigen::Matrix3d>(values.data() + 9 * size_t(k));
   }
 
+  /// Position of block (i, j), or -1.
+  int find(int i, int j) const;
+
   /// Block rows [first, first + count) of y = A x.
   void multiply_rows(int first, int count, const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 

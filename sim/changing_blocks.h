@@ -24,7 +24,16 @@ class ChangingBlocks {
     int row, column;
     auto operator<=>(const Place&) const = default;
   };
+  /// What a row of the matrix gets: block `block` of blocks_, or its transpose.
+  struct Share {
+    int column, block;
+    bool transposed;
+  };
+  void compute(std::span<const ScaledTerm> terms, Definiteness definiteness);
+  static std::vector<Place> missing(const BlockMatrix& matrix, std::span<const ScaledTerm> terms);
   void lay_out(const BlockMatrix& fixed);
+  void sort_by_row(std::span<const ScaledTerm> terms, size_t rows);
+  void fill_row(const BlockMatrix& fixed, const std::vector<std::uint8_t>& held, int row, BlockMatrix& H) const;
 
   BlockMatrix pattern_;       // without values
   std::vector<int> from_;     // of each block of the fixed matrix: where it is in pattern_
@@ -32,7 +41,10 @@ class ChangingBlocks {
   long fixed_blocks_ = -1;    // of the matrix that pattern_ was made for
   bool fresh_ = true;
   long patterns_ = 0;
-  std::vector<double> blocks_;
+  std::vector<double> blocks_;       // of all stencils, 9 doubles each
+  std::vector<size_t> first_block_;  // of each term in it
+  std::vector<int> row_first_;       // rows + 1 offsets into shares_
+  std::vector<Share> shares_;
 };
 
 }  // namespace softreel::sim

@@ -99,6 +99,8 @@ class ColliderFriction final : public EnergyTerm {
     return any;
   }
 
+  bool may_harden() const override { return !touches_.empty(); }
+
   void add_hardened_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override {
     parallel_for(vertices(), Work::kRow, [&](int i) {
       visit(i, [&](const Touch& touch) {

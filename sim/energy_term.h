@@ -88,6 +88,8 @@ class EnergyTerm {
     static_cast<void>(q), static_cast<void>(dq);
     return false;
   }
+  /// False if `harden` is sure to answer so in this step.
+  virtual bool may_harden() const { return false; }
   /// gradient += what that branch's gradient at q has over the true one.
   virtual void add_hardened_gradient(const Eigen::VectorXd& q, Eigen::VectorXd& gradient) const {
     static_cast<void>(q), static_cast<void>(gradient);

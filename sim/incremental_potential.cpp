@@ -26,6 +26,27 @@ double& stage_of(const EnergyTerm& term, StepReport& report) {
   return report.seconds.contact;
 }
 
+/// H += the difference of a term's element Hessians; rows and columns of `held` get nothing.
+void add_difference(const EnergyTerm& term, const std::vector<double>& before, const std::vector<double>& after,
+                    const std::vector<std::uint8_t>& held, BlockMatrix& H) {
+  const auto k = static_cast<size_t>(term.stencil_size());
+  const auto stencils = term.stencils();
+  const double *was = before.data(), *is = after.data();
+  for (size_t e = 0; e < stencils.size(); e += k)
+    for (size_t a = 0; a < k; ++a)
+      for (size_t b = a; b < k; ++b, was += 9, is += 9) {
+        const int i = stencils[e + a], j = stencils[e + b];
+        if (i < 0 || j < 0 || std::equal(is, is + 9, was)) continue;
+        Eigen::Matrix3d change = Eigen::Map<const Eigen::Matrix3d>(is) - Eigen::Map<const Eigen::Matrix3d>(was);
+        for (int r = 0; r < 3; ++r) {
+          if (held[3 * static_cast<size_t>(i) + static_cast<size_t>(r)]) change.row(r).setZero();
+          if (held[3 * static_cast<size_t>(j) + static_cast<size_t>(r)]) change.col(r).setZero();
+        }
+        H.block(H.find(i, j)) += change;
+        if (i != j) H.block(H.find(j, i)) += change.transpose();
+      }
+}
+
 }  // namespace
 
 IncrementalPotential::IncrementalPotential(const Model& model, const Pins& pins, TermList terms)
@@ -147,12 +168,27 @@ void IncrementalPotential::driven_force(const Eigen::VectorXd& y, Eigen::VectorX
   pins_.zero(force);
 }
 
-bool IncrementalPotential::harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy) {
-  if (!damped()) return false;
+bool IncrementalPotential::harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy, Definiteness definiteness,
+                                  BlockMatrix& H, StepReport& report) {
+  const auto may = [](const EnergyTerm* t) { return t->may_harden(); };
+  if (!damped() || std::none_of(terms_.dissipations.begin(), terms_.dissipations.end(), may)) return false;
+  const Stopwatch watch(report.seconds.assemble);
   set_velocity(y);
   const Eigen::VectorXd dv = stage_.a * dy;
   bool any = false;
-  for (EnergyTerm* t : terms_.dissipations) any = t->harden(velocity_, dv) || any;
+  for (EnergyTerm* t : terms_.dissipations) {
+    if (!may(t)) continue;
+    // Most touches stay as they are: the matrix gets the difference, instead of all terms anew.
+    const auto doubles =
+        static_cast<size_t>(stencil_count(*t)) * static_cast<size_t>(hessian_doubles(t->stencil_size()));
+    std::vector<double> before(doubles), after(doubles);
+    const double scale = stage_.beta * stage_.a;
+    all_element_hessians(*t, velocity_, scale, definiteness, before.data());
+    if (!t->harden(velocity_, dv)) continue;
+    any = true;
+    all_element_hessians(*t, velocity_, scale, definiteness, after.data());
+    add_difference(*t, before, after, pins_.fixed(), H);
+  }
   return any;
 }
 

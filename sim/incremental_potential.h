@@ -36,8 +36,10 @@ class IncrementalPotential {
   /// surfaces.
   void hessian(const Eigen::VectorXd& y, Definiteness definiteness, BlockMatrix& H, StepReport& report);
 
-  /// Offers the step dy from y to all terms; true if some have changed their Hessians because of it.
-  bool harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy);
+  /// Offers the step dy from y to all terms; true if some have changed their Hessians because of it. H, which `hessian`
+  /// gave at y for this definiteness, follows.
+  bool harden(const Eigen::VectorXd& y, const Eigen::VectorXd& dy, Definiteness definiteness, BlockMatrix& H,
+              StepReport& report);
   /// g += what the gradient of the changed model has over the true one; zero where held.
   void add_hardened_gradient(const Eigen::VectorXd& y, Eigen::VectorXd& g);
   /// Takes such changes back.

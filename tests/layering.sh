@@ -1,6 +1,6 @@
 #!/bin/sh
 # Reads the includes of the source folders and fails on an arrow that runs back.
-# Allowed: app -> {assets, sim, render}; assets -> sim/mesh.h, sim/catalogue.h (names to choose from); sim and render include only themselves.
+# Allowed: app -> {assets, sim, render}; assets -> sim/mesh.h, sim/catalogue.h (names to choose from), sim/parallel.h (the threads); sim and render include only themselves.
 set -eu
 cd "${1:-$(dirname "$0")/..}"
 
@@ -24,7 +24,7 @@ forbid() {
 }
 check sim 'sim/'
 check render 'render/'
-check assets 'assets/|sim/mesh\.h|sim/catalogue\.h'
+check assets 'assets/|sim/mesh\.h|sim/catalogue\.h|sim/parallel\.h'
 check app 'app/|assets/|sim/|render/'
 forbid sim 'assimp|tetgen|toml|glm|GL/|fstream|iostream|cstdio|stdio|fmt/|filesystem' 'holds no file, no GL, no printing'
 forbid render 'Eigen|assimp|tetgen|toml' 'holds no physics and no mesh import'

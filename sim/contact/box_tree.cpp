@@ -23,7 +23,7 @@ float up(double value) {
 }
 
 double area(const Box3f& box) {
-  const Eigen::Array3d size = (box.upper - box.lower).cast<double>();
+  const Eigen::Array4d size = (box.upper - box.lower).cast<double>();
   return size(0) * size(1) + size(1) * size(2) + size(2) * size(0);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // A hierarchy of axis-aligned boxes over the triangles of one surface, refitted as it moves.
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,10 +10,11 @@
 
 namespace softreel::sim {
 
-/// In single precision, rounded outwards: half the memory traffic. Empty when default-constructed.
+/// In single precision, rounded outwards: half the memory traffic. Empty when default-constructed. The fourth lane is
+/// zero: a test of two boxes is a handful of vector instructions without a branch.
 struct Box3f {
-  Eigen::Array3f lower = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
-  Eigen::Array3f upper = Eigen::Array3f::Constant(-std::numeric_limits<float>::infinity());
+  Eigen::Array4f lower = Eigen::Array4f(kInfinite, kInfinite, kInfinite, 0);
+  Eigen::Array4f upper = Eigen::Array4f(-kInfinite, -kInfinite, -kInfinite, 0);
 
   void add(const Box3f& other) {
     lower = lower.min(other.lower);
@@ -22,10 +24,14 @@ struct Box3f {
   void add(const Eigen::Vector3d& point);
   /// At least by `margin` >= 0 on all sides.
   void grow(double margin);
-  bool meets(const Box3f& other) const { return (lower <= other.upper).all() && (other.lower <= upper).all(); }
-  bool holds(const Box3f& other) const { return (lower <= other.lower).all() && (other.upper <= upper).all(); }
+  bool meets(const Box3f& other) const {
+    return (lower.max(other.lower) - upper.min(other.upper)).maxCoeff() <= 0;  // signs of differences are exact
+  }
   /// Moved by any vector in `shifts`.
   Box3f swept(const Box3f& shifts) const;
+
+ private:
+  static constexpr float kInfinite = std::numeric_limits<float>::infinity();
 };
 
 /// Built once over the triangles' midpoints; boxes are refitted to those of the vertices. O(n log n), then O(n).

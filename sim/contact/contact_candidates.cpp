@@ -11,7 +11,7 @@ namespace softreel::sim {
 namespace {
 
 // Room around a move, so that the next ones, which are mostly shorter, stay in it: of d_hat, and of the move.
-constexpr double kRoom = 0.5, kRoomOfMove = 0.5;
+constexpr double kRoom = 1, kRoomOfMove = 0.1;
 constexpr int kMostPieces = 8;  // of the way of a pair, after which it counts as a candidate
 // A surface's own features keep away from each other by half of what they were apart at rest.
 constexpr double kShareOfRest = 0.5;
@@ -252,39 +252,44 @@ void ContactCandidates::add_features(const BoxTree::Pair& triangles, const Surfa
                                      const Box3f* shifts, std::vector<Candidate>& points,
                                      std::vector<Candidate>& edges) const {
   const auto reach = static_cast<float>(reach_);
-  const auto box_of = [&](std::span<const int> vertices) {
-    Box3f box;
-    for (const int v : vertices) box.add(vertex_box_[static_cast<size_t>(v)]);
-    return box;
-  };
   const auto meet = [&](const Box3f& of_a, const Box3f& of_b) {
     return of_a.meets(shifts ? of_b.swept(*shifts) : of_b);
   };
   const auto t = static_cast<size_t>(triangles.first), u = static_cast<size_t>(triangles.second);
   const Triangle &T = surfaces_.triangles[t], &U = surfaces_.triangles[u];
+  const unsigned of_t = surfaces_.stands_for[t], of_u = surfaces_.stands_for[u];
+  unsigned shared_t = 0, shared_u = 0;  // bits of vertices that both triangles have
+  for (unsigned k = 0; k < 3; ++k)
+    for (unsigned l = 0; l < 3; ++l) {
+      const auto same = static_cast<unsigned>(T[k] == U[l]);
+      shared_t |= same << k;
+      shared_u |= same << l;
+    }
+  const unsigned points_t = of_t & 7 & ~shared_t, points_u = of_u & 7 & ~shared_u;
   for (size_t k = 0; k < 3; ++k) {
-    if (surfaces_.stands_for[t] >> k & 1 && std::find(U.begin(), U.end(), T[k]) == U.end() &&
-        meet(vertex_box_[static_cast<size_t>(T[k])], triangle_box_[u])) {
+    if (points_t >> k & 1 && meet(vertex_box_[static_cast<size_t>(T[k])], triangle_box_[u])) {
       Candidate c{T[k], triangles.second, reach, pair_number};
       if (is_candidate(PairKind::kPointTriangle, pair, pair_number, c)) points.push_back(c);
     }
-    if (surfaces_.stands_for[u] >> k & 1 && std::find(T.begin(), T.end(), U[k]) == T.end() &&
-        meet(triangle_box_[t], vertex_box_[static_cast<size_t>(U[k])])) {
+    if (points_u >> k & 1 && meet(triangle_box_[t], vertex_box_[static_cast<size_t>(U[k])])) {
       Candidate c{U[k], triangles.first, reach, pair_number};
       if (is_candidate(PairKind::kPointTriangle, pair, pair_number, c)) points.push_back(c);
     }
   }
+  const unsigned edges_t = of_t >> 3, edges_u = of_u >> 3;
+  if (edges_t == 0 || edges_u == 0) return;
   for (size_t k = 0; k < 3; ++k) {
-    if (!(surfaces_.stands_for[t] >> (3 + k) & 1)) continue;
+    if (!(edges_t >> k & 1)) continue;
     const int e = surfaces_.triangle_edges[t][k];
-    const auto& ends = surfaces_.edges[static_cast<size_t>(e)];
-    const Box3f box = box_of(ends);
+    const Box3f& box = edge_box_[static_cast<size_t>(e)];
     for (size_t l = 0; l < 3; ++l) {
-      if (!(surfaces_.stands_for[u] >> (3 + l) & 1)) continue;
+      if (!(edges_u >> l & 1)) continue;
       const int f = surfaces_.triangle_edges[u][l];
-      const auto& others = surfaces_.edges[static_cast<size_t>(f)];
-      if (ends[0] == others[0] || ends[0] == others[1] || ends[1] == others[0] || ends[1] == others[1]) continue;
-      if (!meet(box, box_of(others))) continue;
+      const auto &ends = surfaces_.edges[static_cast<size_t>(e)], &others = surfaces_.edges[static_cast<size_t>(f)];
+      if (shared_t != 0 &&
+          (ends[0] == others[0] || ends[0] == others[1] || ends[1] == others[0] || ends[1] == others[1]))
+        continue;
+      if (!meet(box, edge_box_[static_cast<size_t>(f)])) continue;
       Candidate c{e, f, reach, pair_number};
       if (pair.a == pair.b && c.a > c.b) std::swap(c.a, c.b);
       if (is_candidate(PairKind::kEdgeEdge, pair, pair_number, c)) edges.push_back(c);
@@ -318,6 +323,12 @@ void ContactCandidates::refit(bool turning) {
     triangle_box_[t] = {};
     for (const int v : surfaces_.triangles[t]) triangle_box_[t].add(vertex_box_[static_cast<size_t>(v)]);
   });
+  edge_box_.resize(surfaces_.edges.size());
+  parallel_for(static_cast<int>(edge_box_.size()), Work::kRow, [&](int i) {
+    const auto e = static_cast<size_t>(i);
+    edge_box_[e] = {};
+    for (const int v : surfaces_.edges[e]) edge_box_[e].add(vertex_box_[static_cast<size_t>(v)]);
+  });
   parallel_tasks(static_cast<int>(trees_.size()), [&](int i) {
     const auto s = static_cast<size_t>(i);
     if (!trees_[s]) return;
@@ -327,7 +338,8 @@ void ContactCandidates::refit(bool turning) {
     } else if (trees_[s]->cost() > kWorn * built_cost_[s]) {
       const ContactSurface& surface = surfaces_.surfaces[s];
       std::vector<Vec3> middles;
-      for (const Box3f& box : vertex_box_) middles.push_back((0.5F * (box.lower + box.upper)).matrix().cast<double>());
+      for (const Box3f& box : vertex_box_)
+        middles.push_back((0.5F * (box.lower + box.upper)).head<3>().matrix().cast<double>());
       trees_[s] = std::make_unique<BoxTree>(
           std::span(surfaces_.triangles)
               .subspan(static_cast<size_t>(surface.first_triangle), static_cast<size_t>(surface.triangle_count)),

@@ -88,7 +88,7 @@ class ContactCandidates {
   std::vector<Vec3> mean_move_, middle_, turn_;  // per surface: its rigid motion [m], about [m], [rad]
   std::vector<double> radius_;                   // per vertex: how far off it may be [m]
   std::vector<double> shift_;                    // per pair of surfaces: how far apart their shifts may be [m]
-  std::vector<Box3f> vertex_box_, triangle_box_;
+  std::vector<Box3f> vertex_box_, edge_box_, triangle_box_;
   std::vector<Candidate> point_triangle_, edge_edge_;
   // Of the extent of the largest surface: beyond it everything would be near everything.
   static constexpr double kFarthest = 4;

@@ -80,6 +80,8 @@ class SurfaceFriction final : public EnergyTerm {
     return any;
   }
 
+  bool may_harden() const override { return !touches_.empty(); }
+
   void add_hardened_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override {
     for (int i = 0; i < count(); ++i) {
       const Touch& touch = touches_[static_cast<size_t>(i)];

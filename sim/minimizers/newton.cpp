@@ -198,9 +198,11 @@ bool Newton::step(int iteration, Eigen::VectorXd& y, StepReport& report, std::st
     found = direction(y, report, failure);
   }
   bool hardened = false;
-  for (int proposal = 1; found && proposal < kMostProposals && phi_.harden(y, d_); ++proposal) {
+  for (int proposal = 1; found && proposal < kMostProposals && phi_.harden(y, d_, definiteness_, H_, report);
+       ++proposal) {
     hardened = true;
-    model_at();
+    factorized_ = false;
+    test_.see_hessian(H_, y);
     model_gradient_ = g_;
     phi_.add_hardened_gradient(y, model_gradient_);
     found = direction(y, report, failure);
