@@ -315,7 +315,9 @@ void Simulation::solve(const Eigen::VectorXd& target, double progress, const Eig
     y = start;
     phi_->drive_to(target, progress);
     minimizer_->minimize(y, guess, report);
-    guess = nullptr;  // it was one for softer contact
+    // Where softer contact has led is mostly nearer than the start, and nothing was jumped over on the way.
+    guess_ = y;
+    guess = driven_ ? nullptr : &guess_;
     const bool stiffened = report.converged
                                ? surfaces->stiffen_near(y)
                                : phi_->blocked() && !phi_->collider_blocks() && surfaces->stiffen_blocking();
