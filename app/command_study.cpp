@@ -13,6 +13,7 @@
 #include "app/output_check.h"
 #include "app/progress.h"
 #include "app/stability_map.h"
+#include "app/stage.h"
 #include "app/study_apply.h"
 #include "app/study_plot.h"
 #include "app/study_render.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/stage.h"
+#include "app/clip_extent.h"
 #include "app/world.h"
 #include "assets/atomic_file.h"
 #include "assets/content_hash.h"

@@ -2,7 +2,9 @@
 // Where the scene is seen from.
 #include <vector>
 
-#include "app/stage.h"
+#include "app/clip_extent.h"
+#include "render/camera.h"
+#include "render/color_bar.h"
 
 namespace softreel::app {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/convert.h"
+#include "app/drawn_bodies.h"
 #include "app/drawn_surface.h"
 #include "app/placement.h"
 #include "app/scene_camera.h"
@@ -26,92 +27,11 @@ bool is_level(const assets::Collider& c) {
   return plane.world_from_shape.linear().col(1).y() > 1 - 1e-9;
 }
 
-render::Shape shape_of(const assets::Collider& c, const ClipExtent& extent) {
-  const float scale = static_cast<float>(c.transform.scale.x());
-  switch (c.shape) {
-    case assets::ColliderShape::kSphere:
-      return render::make_sphere(static_cast<float>(c.radius) * scale);
-    case assets::ColliderShape::kBox:
-      return render::make_box(to_vec(c.transform.scale.cwiseProduct(c.size)));
-    case assets::ColliderShape::kCapsule:
-      return render::make_capsule(static_cast<float>(c.radius) * scale, static_cast<float>(c.height) * scale);
-    case assets::ColliderShape::kPlane:
-    case assets::ColliderShape::kMesh:
-      break;
-  }
-  const float side = std::max(6.0f * extent.bounds.radius(), 1.0f);
-  return render::make_plane(side, side);
-}
-
-render::Bounds moved(const render::Shape& shape, const Eigen::Isometry3d& pose) {
-  const glm::mat4 m = to_glm(pose);
-  render::Bounds local, world;
-  local.add(shape.positions);
-  for (int corner = 0; corner < 8; ++corner)
-    world.add(glm::vec3(m * glm::vec4(corner & 1 ? local.high.x : local.low.x, corner & 2 ? local.high.y : local.low.y,
-                                      corner & 4 ? local.high.z : local.low.z, 1)));
-  return world;
-}
-
-render::Bounds box_around(const Eigen::VectorXd& x, int first, int count) {
-  render::Bounds box;
-  for (int i = first; i < first + count; ++i) box.add(to_glm(Eigen::Vector3d(x.segment<3>(3 * i))));
-  return box;
-}
-
-/// Calls each(body, drawn surface, first vertex, is cloth) in the order of the state.
-template <class Each>
-void for_each_body(const assets::Scene& scene, const Shapes& shapes, const Each& each) {
-  int first = 0;
-  for (size_t i = 0; i < scene.soft.size(); ++i) {
-    each(static_cast<const assets::Body&>(scene.soft[i]), shapes.soft[i].drawn, first, false);
-    first += static_cast<int>(shapes.soft[i].rest.vertices.size());
-  }
-  for (size_t i = 0; i < scene.cloth.size(); ++i) {
-    each(static_cast<const assets::Body&>(scene.cloth[i]), shapes.cloth[i].drawn, first, true);
-    first += static_cast<int>(shapes.cloth[i].rest.vertices.size());
-  }
-}
-
-/// Calls each(body, drawn shape, first vertex) for visible bodies of springs, which come after the others in the state.
-template <class Each>
-void for_each_net(const assets::Scene& scene, const Shapes& shapes, const Each& each) {
-  int first = 0;
-  for (const SolidShape& s : shapes.soft) first += static_cast<int>(s.rest.vertices.size());
-  for (const ClothShape& c : shapes.cloth) first += static_cast<int>(c.rest.vertices.size());
-  for (size_t i = 0; i < scene.springs.size(); ++i) {
-    if (shapes.springs[i].drawn) each(scene.springs[i], *shapes.springs[i].drawn, first);
-    first += static_cast<int>(shapes.springs[i].rest.size());
-  }
-}
-
-}  // namespace
-
-namespace {
-
 /// The nearest of 1, 2, 5 times a power of ten that is not larger.
 double round_size(double size) {
   if (!(size > 0)) return 1;
   const double power = std::pow(10.0, std::floor(std::log10(size)));
   return (size >= 5 * power ? 5 : size >= 2 * power ? 2 : 1) * power;
-}
-
-void add_figures(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& frame, ClipExtent& extent) {
-  if (extent.figures.empty()) {
-    int first = 0;
-    const auto make = [&](const auto& bodies, const auto& of) {
-      for (size_t i = 0; i < bodies.size(); ++i) {
-        extent.figures.push_back(bodies[i].data ? std::make_shared<const BodyFigure>(bodies[i], of[i], first)
-                                                : nullptr);
-        first += static_cast<int>(of[i].rest.vertices.size());
-      }
-    };
-    make(scene.soft, shapes.soft);
-    make(scene.cloth, shapes.cloth);
-    extent.figure_ranges.resize(extent.figures.size());
-  }
-  for (size_t i = 0; i < extent.figures.size(); ++i)
-    if (extent.figures[i]) extent.figure_ranges[i].add(extent.figures[i]->values(frame));
 }
 
 render::RenderOptions options_of(const assets::Render& r) {
@@ -137,66 +57,6 @@ CachedFrame between(const CachedFrame& a, const CachedFrame& b, double time) {
 }
 
 }  // namespace
-
-bool needs_whole_clip(const assets::Scene& scene) {
-  const bool camera = !scene.camera.position || !scene.camera.target;
-  const bool ground = scene.render.ground.show != assets::GroundMode::kOff && !scene.render.ground.height;
-  const bool light = std::any_of(scene.lights.begin(), scene.lights.end(), [](const assets::Light& l) {
-    return l.kind != assets::LightKind::kSun &&
-           (!l.position || (l.kind == assets::LightKind::kArea ? !l.radius : !l.size));
-  });
-  const bool range =
-      std::any_of(scene.fields.begin(), scene.fields.end(), [](const assets::Field& f) { return !f.range; });
-  const auto open_data = [](const assets::Body& b) { return b.data && !b.data->range; };
-  const bool data = std::any_of(scene.soft.begin(), scene.soft.end(), open_data) ||
-                    std::any_of(scene.cloth.begin(), scene.cloth.end(), open_data);
-  return camera || ground || light || range || data;
-}
-
-void ClipExtent::add(const render::Bounds& box) {
-  if (box.empty()) return;
-  bounds.add(box);
-  for (int corner = 0; corner < 8; ++corner)
-    points.emplace_back(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                        corner & 4 ? box.high.z : box.low.z);
-}
-
-void add_frame(const assets::Scene& scene, const Shapes& shapes, const CachedFrame& frame, ClipExtent& extent) {
-  const sim::State& state = frame.state;
-  for_each_body(scene, shapes, [&](const assets::Body& body, const BodySurface& drawn, int first, bool) {
-    if (body.visible) extent.add(box_around(state.x, first, drawn.position_count));
-  });
-  for_each_net(scene, shapes, [&](const assets::SpringBody&, const BallsAndRods& drawn, int first) {
-    render::Bounds box;
-    for (size_t i = 0; i < drawn.radii().size(); ++i) {
-      const glm::vec3 p = to_glm(Eigen::Vector3d(state.x.segment<3>(3 * (first + static_cast<int>(i)))));
-      const glm::vec3 r(static_cast<float>(drawn.radii()[i]));
-      box.add(p - r);
-      box.add(p + r);
-    }
-    extent.add(box);
-  });
-  add_figures(scene, shapes, frame, extent);
-  extent.field_ranges.resize(scene.fields.size());
-  for (size_t i = 0; i < scene.fields.size(); ++i) {
-    render::Bounds box;
-    box.add(FieldSurface(scene.fields[i], shapes.fields[i]).positions(frame.fields.at(i).value));
-    extent.add(box);
-    extent.field_ranges[i].add(frame.fields[i].value);
-  }
-  for (size_t i = 0; i < scene.colliders.size(); ++i) {
-    const assets::Collider& c = scene.colliders[i];
-    if (!c.visible || c.shape == assets::ColliderShape::kPlane) continue;
-    if (c.shape == assets::ColliderShape::kMesh) {
-      const Eigen::Isometry3d pose = make_collider(c).motion.pose(state.t);
-      render::Bounds box;
-      for (const sim::Vec3& v : shapes.colliders[i]->rest.vertices) box.add(to_vec(pose * v));
-      extent.add(box);
-    } else {
-      extent.add(moved(shape_of(c, extent), make_collider(c).pose(state.t)));
-    }
-  }
-}
 
 Stage::Stage(const assets::Scene& scene, const Shapes& shapes, const ClipExtent& extent)
     : scene_(scene), renderer_(options_of(scene.render)) {
@@ -271,7 +131,7 @@ void Stage::add_colliders(const Shapes& shapes, const ClipExtent& extent) {
       continue;
     }
     const bool plane = c.shape == assets::ColliderShape::kPlane;
-    render::Shape shape = shape_of(c, extent);
+    render::Shape shape = shape_of(c, std::max(6.0f * extent.bounds.radius(), 1.0f));
     for (const std::uint32_t position : shape.mesh.position_of) shape.mesh.rest.push_back(shape.positions[position]);
     DrawnCollider d{renderer_.add_shape(std::move(shape), plain_look(scene_, c.look, plane)), make_collider(c),
                     !c.motion.empty()};

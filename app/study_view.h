@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <glm/glm.hpp>
 
-#include "app/stage.h"
+#include "app/clip_extent.h"
 
 namespace softreel::app {
 
