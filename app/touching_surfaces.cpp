@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "app/enclosed_surfaces.h"
 #include "app/way_apart.h"
 #include "app/world.h"
 #include "assets/crossing_pairs.h"
@@ -38,6 +39,10 @@ std::string list_of(const sim::ContactSurfaces& surfaces, const std::vector<Cros
   std::string list;
   for (const Crossing& c : found) {
     const auto name = [&](int s) { return surfaces.surfaces[static_cast<size_t>(s)].name; };
+    if (c.pairs == 0) {
+      list += fmt::format("{}'{}' inside '{}'", list.empty() ? "" : ", ", name(c.second), name(c.first));
+      continue;
+    }
     list += fmt::format("{}'{}' and {} ({} pair{} of triangles)", list.empty() ? "" : ", ", name(c.first),
                         c.first == c.second ? "itself" : fmt::format("'{}'", name(c.second)), c.pairs,
                         c.pairs == 1 ? "" : "s");
@@ -188,11 +193,23 @@ std::vector<Crossing> crossings(const sim::ContactSurfaces& surfaces, const Eige
 
 void settle_overlaps(const assets::Scene& scene, sim::Model& model) {
   const sim::ContactSurfaces& surfaces = model.surfaces->surfaces();
-  std::vector<Crossing> found = crossings(surfaces, model.x0, 0);
+  std::vector<std::uint8_t> solid(surfaces.surfaces.size(), 0);
+  std::fill_n(solid.begin(), scene.soft.size(), 1);  // they come first
+  const auto overlaps = [&] {
+    std::vector<Crossing> all = crossings(surfaces, model.x0, 0);
+    const auto crosses = [&](int a, int b) {
+      return std::any_of(all.begin(), all.end(),
+                         [&](const Crossing& c) { return std::minmax(c.first, c.second) == std::minmax(a, b); });
+    };
+    for (const auto& [outer, inner] : enclosed(surfaces, positions_of(surfaces, model.x0, 0), solid))
+      if (!crosses(outer, inner)) all.push_back({outer, inner, 0});
+    return all;
+  };
+  std::vector<Crossing> found = overlaps();
   if (found.empty()) return;
   const std::string list = list_of(surfaces, found);
   if (!scene.contact.resolve_overlap)
-    refuse(scene, fmt::format("surfaces cross in the first frame: {}. Move them apart (translate), set "
+    refuse(scene, fmt::format("bodies overlap in the first frame: {}. Move them apart (translate), set "
                               "contact.resolve_overlap = true to have whole bodies moved, or let the two pass through "
                               "each other ([[contact.pair]] between = [...], touch = false)",
                               list));
@@ -205,13 +222,13 @@ void settle_overlaps(const assets::Scene& scene, sim::Model& model) {
     if (!separation.movable(own)) std::swap(own, other);
     const sim::BodyRange* body = c.first == c.second ? nullptr : separation.movable(own);
     if (!body || moves == kMostMoves)
-      refuse(scene, fmt::format("surfaces cross in the first frame, and contact.resolve_overlap cannot move them apart "
+      refuse(scene, fmt::format("bodies overlap in the first frame, and contact.resolve_overlap cannot move them apart "
                                 "as whole bodies: {}",
                                 list_of(surfaces, found)));
     const double gap = surfaces.surfaces[static_cast<size_t>(own)].half_thickness +
                        surfaces.surfaces[static_cast<size_t>(other)].half_thickness + scene.contact.distance;
     separation.move(*body, separation.way_out(own, other, gap));
-    found = crossings(surfaces, model.x0, 0);
+    found = overlaps();
   }
 }
 

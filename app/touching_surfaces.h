@@ -22,7 +22,8 @@ struct Crossing {
 };
 std::vector<Crossing> crossings(const sim::ContactSurfaces& surfaces, const Eigen::VectorXd& x, double t);
 
-/// A first frame with crossings is refused (UserError, kUsage, with the pairs), or bodies are moved apart if the scene
+/// A first frame in which surfaces cross, or lie inside a soft body, is refused (UserError, kUsage, with the pairs), or
+/// bodies are moved apart if the scene
 /// asks for it: `model` then begins without any. Moved are bodies without pins, as a whole, pair by pair the least way
 /// that is found (way_apart.h); what cannot be resolved so is refused.
 void settle_overlaps(const assets::Scene& scene, sim::Model& model);

@@ -1,4 +1,5 @@
 // Contact between surfaces as a user meets it: keys, refusals, figures.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -60,6 +61,39 @@ TEST_CASE("bodies that overlap in the first frame are refused with their names, 
   const test::RunResult pinned = run(folder, two_blocks(-0.07, "[contact]\nresolve_overlap = true\n"),
                                      {"--set", "soft.*.pins=[{ box = [[-9, -9, -9], [9, 9, 9]] }]"});
   CHECK(pinned.code == 2);
+}
+
+TEST_CASE("a body wholly inside another is refused with both names, or moved out if asked") {
+  const std::string frame = "gravity = [0, 0, 0]\n[time]\nduration = 0.2\nfps = 10\n";
+  const std::string outer = "[[soft]]\nname = \"outer\"\nblock = { size = [0.6, 0.6, 0.6], cells = [2, 2, 2] }\n";
+  const std::string inner =
+      "[[soft]]\nname = \"inner\"\nblock = { size = [0.1, 0.1, 0.1], cells = [1, 1, 1] }\ntranslate = [0.05, 0, 0]\n";
+  test::TempFolder folder;
+  for (const std::string& text : {frame + outer + inner, frame + inner + outer}) {
+    const test::RunResult refused = run(folder, text);
+    CHECK(refused.code == 2);
+    CHECK(refused.err.find("'inner' inside 'outer'") != std::string::npos);
+  }
+  const std::string cloth =
+      "[[cloth]]\nname = \"flag\"\ngrid = { size = [0.1, 0.1], cells = [2, 2] }\ntranslate = [0, 0.05, 0]\n";
+  CHECK(run(folder, frame + outer + cloth).err.find("'flag' inside 'outer'") != std::string::npos);
+  const test::RunResult moved =
+      run(folder, frame + "[contact]\nresolve_overlap = true\n" + outer + inner, {"--export", "ply"});
+  REQUIRE(moved.code == 0);
+  Eigen::AlignedBox3d box;
+  for (const sim::Vec3& p : assets::import_surface(folder / "out" / "export" / "inner_0001.ply").welded.vertices)
+    box.extend(p);
+  CHECK(box.min().cwiseAbs().maxCoeff() > 0.3);
+  // What may hold others is no solid, and what does not touch may be anywhere.
+  CHECK(
+      run(folder, frame + outer + inner + "[[contact.pair]]\nbetween = [\"inner\", \"outer\"]\ntouch = false\n").code ==
+      0);
+  folder.write(
+      "room.obj",
+      "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+      "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 4 7 3\nf 4 8 7\nf 1 5 8\nf 1 8 4\nf 2 3 7\nf 2 7 6\n");
+  CHECK(run(folder, frame + inner + "[[collider]]\nname = \"room\"\nshape = \"mesh\"\nmesh = \"room.obj\"\n").code ==
+        0);
 }
 
 TEST_CASE("bodies that overlap aslant are moved apart along the faces that overlap") {
