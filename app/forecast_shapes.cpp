@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/forecast_edges.h"
 #include "app/forecast_warnings.h"
 #include "assets/tet_quality.h"
@@ -66,10 +68,38 @@ void warn_of_shapes(const assets::Scene& scene, const Shapes& shapes, std::vecto
   }
 }
 
-void warn_of_gaps(const std::vector<Meeting>& meetings, std::vector<std::string>& warnings) {
+namespace {
+
+/// How far a chord between two vertices that lie at `radius` from the middle dips below it [m].
+double sagitta(double radius, double chord) {
+  const double half = 0.5 * chord;
+  return half < radius ? radius - std::sqrt(radius * radius - half * half) : radius;
+}
+
+/// Edges that bend around something round lie inside it between their vertices.
+void warn_of_dips(const Meeting& m, double distance, std::vector<std::string>& warnings) {
+  const assets::ColliderShape shape = m.collider->shape;
+  if (shape != assets::ColliderShape::kSphere && shape != assets::ColliderShape::kCapsule) return;
+  const double radius = inner_radius(*m.collider), longest = m.body->edges.longest;
+  // Vertices stand off by the contact distance at most; what dips hardly further is not worth a word.
+  const double dip = sagitta(radius + distance, longest) - distance;
+  if (dip <= 2 * distance) return;
+  warnings.push_back(
+      fmt::format("where '{}' bends around collider '{}', its edges, up to {:.3g} m long, dip about {:.2g} mm into it: "
+                  "only vertices "
+                  "touch simple shapes; a finer mesh, a larger contact.distance ({:.2g}), or a ball of triangles "
+                  "(shape = \"mesh\") "
+                  "keeps them off",
+                  m.body->body->name, m.collider->name, longest, 1e3 * dip, sagitta(radius, longest)));
+}
+
+}  // namespace
+
+void warn_of_gaps(const std::vector<Meeting>& meetings, double distance, std::vector<std::string>& warnings) {
   for (const Meeting& m : meetings) {
     const double width = 2 * inner_radius(*m.collider);
     // A ball of this width fits between vertices so far apart.
+    if (width >= m.body->edges.longest) warn_of_dips(m, distance, warnings);
     if (width <= 0 || width >= m.body->edges.longest) continue;
     warnings.push_back(fmt::format(
         "collider '{}' is {:.3g} m thin, edges of '{}' are up to {:.3g} m long: only vertices touch colliders, so it "

@@ -19,8 +19,8 @@ std::vector<std::string> warnings_of(const assets::Scene& scene, const Shapes& s
 /// Slivers, Poisson's ratio near 1/2, thickness.
 void warn_of_shapes(const assets::Scene& scene, const Shapes& shapes, std::vector<std::string>& warnings);
 
-/// Colliders that slip through a coarse mesh.
-void warn_of_gaps(const std::vector<Meeting>& meetings, std::vector<std::string>& warnings);
+/// Colliders that slip through a coarse mesh, and round ones that it dips into. `distance`: of contact [m].
+void warn_of_gaps(const std::vector<Meeting>& meetings, double distance, std::vector<std::string>& warnings);
 
 /// Speeds, driven and falling, against contact distance, thin colliders and edges; friction of explicit methods. Not
 /// for "static".

@@ -200,6 +200,12 @@ TEST_CASE("check warns of what makes scenes fail, each with its figure, and of n
   const std::string dropped = calm + "translate = [0, 1, 0]\n";
   CHECK(test::contains(check(dropped + "[[collider]]\nname = \"pea\"\nshape = \"sphere\"\nradius = 0.02\n"),
                        "collider 'pea' is 0.04 m thin"));
+  const std::string over_ball =
+      "[time]\n" + kSheet.substr(kSheet.find("[[cloth]]")) +
+      "[[collider]]\nname = \"ball\"\nshape = \"sphere\"\nradius = 0.25\ntranslate = [0, -0.26, 0]\n";
+  CHECK(test::contains(check(over_ball), "where 'sheet' bends around collider 'ball', its edges, up to 0.141 m long"));
+  CHECK_FALSE(test::contains(check(over_ball, {"cloth.sheet.grid.cells=[40, 40]"}), "bends around"));
+  CHECK_FALSE(test::contains(check(over_ball, {"contact.distance=0.012"}), "bends around"));
   const std::string thrown =
       "velocity = [0, -50, 0]\n[[collider]]\nname = \"board\"\nshape = \"box\"\nsize = [1, 0.3, "
       "1]\n";
