@@ -44,6 +44,7 @@ std::vector<std::string> warnings_of(const assets::Scene& scene, const Shapes& s
   const std::vector<Meeting> meetings = meetings_of(scene, bodies, model);
   warn_of_gaps(meetings, scene.contact.distance, warnings);
   if (forecast) warn_of_speeds(scene, bodies, meetings, warnings);
+  warn_of_lights(scene, shapes, warnings);
   warn_of_no_effect(scene, warnings);
   return warnings;
 }

@@ -27,6 +27,9 @@ void warn_of_gaps(const std::vector<Meeting>& meetings, double distance, std::ve
 void warn_of_speeds(const assets::Scene& scene, const std::vector<MovingBody>& bodies,
                     const std::vector<Meeting>& meetings, std::vector<std::string>& warnings);
 
+/// Lamps inside soft bodies.
+void warn_of_lights(const assets::Scene& scene, const Shapes& shapes, std::vector<std::string>& warnings);
+
 /// Masses and stiffnesses that differ a lot across a tie.
 void warn_of_ratios(const assets::Scene& scene, const sim::Model& model, std::vector<std::string>& warnings);
 

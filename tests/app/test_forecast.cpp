@@ -200,6 +200,9 @@ TEST_CASE("check warns of what makes scenes fail, each with its figure, and of n
   const std::string dropped = calm + "translate = [0, 1, 0]\n";
   CHECK(test::contains(check(dropped + "[[collider]]\nname = \"pea\"\nshape = \"sphere\"\nradius = 0.02\n"),
                        "collider 'pea' is 0.04 m thin"));
+  const std::string lamp = calm + "[[light]]\nkind = \"area\"\nradius = 0.01\nposition = [0.02, 0.01, 0.03]\n";
+  CHECK(test::contains(check(lamp), "light 1 stands inside 'block'"));
+  CHECK_FALSE(test::contains(check(lamp, {"light.1.position=[0.2, 0.01, 0.03]"}), "stands inside"));
   const std::string over_ball =
       "[time]\n" + kSheet.substr(kSheet.find("[[cloth]]")) +
       "[[collider]]\nname = \"ball\"\nshape = \"sphere\"\nradius = 0.25\ntranslate = [0, -0.26, 0]\n";
