@@ -1,6 +1,7 @@
 #include "app/enclosed_surfaces.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>

@@ -1,9 +1,9 @@
 // The matrix of an implicit step with contact between surfaces, against the sum of all stencils made dense.
 #include <doctest/doctest.h>
 
-#include "sim/incremental_potential.h"
 #include "sim/term_list.h"
 #include "tests/contact/scenes.h"
+#include "tests/sim/linear_systems.h"
 
 using namespace softreel;
 using namespace softreel::sim;
@@ -33,14 +33,6 @@ Eigen::MatrixXd naive_hessian(const EnergyTerm& term, const Eigen::VectorXd& q, 
   for (Eigen::Index i = 0; i < q.size(); ++i)
     if (held[static_cast<size_t>(i)]) H.row(i).setZero(), H.col(i).setZero();
   return H;
-}
-
-Eigen::MatrixXd dense(const BlockMatrix& A) {
-  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(3 * A.rows(), 3 * A.rows());
-  for (int i = 0; i < A.rows(); ++i)
-    for (int k = A.row_start[static_cast<size_t>(i)]; k < A.row_start[static_cast<size_t>(i) + 1]; ++k)
-      D.block<3, 3>(3 * i, 3 * A.column[static_cast<size_t>(k)]) = A.block(k);
-  return D;
 }
 
 }  // namespace
